@@ -8,6 +8,9 @@ import './moving_checks.mjs';
 import './load_checks.mjs';
 import './comparison_checks.mjs';
 import './look_checks.mjs';
+import './verdict_checks.mjs';
+import './program_checks.mjs';
+import './chart_checks.mjs';
 import './scene_checks.mjs';
 import './large_checks.mjs';
 

@@ -22,7 +22,7 @@ test('without WebGL everything is drawn flat', () => visit('groove', async (page
   assert.ok(await colours(page, '#path-view canvas') > 20);
 }, {webgl: false}));
 
-for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'bracket', 'large'])
+for (const name of ['groove', 'pocket', 'predicted', 'face', 'hostile', 'failed', 'unverified', 'bracket', 'large'])
   test(`the page of the run "${name}" has the report beside it, and shows its verdict`, () => visit(name, async (page) => {
     assert.deepEqual(data_in(name).runs[0].report, report_of(name));
     const [verdict] = await texts(page, '.verdict');
@@ -84,7 +84,7 @@ test('a report of an older version is shown without the missing parts', async ()
   write_page('groove', data, 'older');
   await visit('older', async (page) => {
     assert.ok(await pixels(page, '.plot.before canvas', '--before') > 300);
-    assert.match(await page.innerText('#place h3'), new RegExp(`Line ${report.worst[0].line}$`));
+    assert.match(await page.innerText('#place h3'), new RegExp(`Line ${report.summary.before.max_line}$`));
     assert.doesNotMatch(await page.innerText('main'), /undefined|NaN|\[object|null/);
   });
 });

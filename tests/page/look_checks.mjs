@@ -42,7 +42,7 @@ test('a printed page is light, complete and without buttons', () => visit('groov
   const widths = await page.$$eval('.plot', (plots) => plots.map((plot) => plot.offsetWidth));
   assert.ok(widths.every((width) => width <= 700), widths.join());
   const pdf = await page.pdf({format: 'A4'});
-  assert.ok(pages_of(pdf) > 1);
+  assert.ok(pages_of(pdf) > 1 && pages_of(pdf) <= 4, `${pages_of(pdf)} pages`);
   const pictures = images_of(pdf).filter(({width}) => width >= 1900);
   assert.ok(pictures.length > widths.length, `${pictures.length} pictures of ${widths.length} plots and the path`);
   for (const {bytes} of pictures) assert.ok(bytes > 4000, `${bytes} bytes`);
@@ -74,3 +74,18 @@ test('a narrow window shows line, deviations and cause of the worst blocks, and 
   for (const right of await page.$$eval('caption', (all) => all.filter((c) => c.checkVisibility()).map((c) => c.getBoundingClientRect().right)))
     assert.ok(right <= 400, `${right}`);
 }, {width: 400}));
+
+for (const name of ['pocket', 'face', 'bracket', 'compared', 'failed', 'unverified'])
+  test(`"${name}" is printed on four pages at most`, () => visit(name, async (page) => {
+    await page.emulateMedia({media: 'print'});
+    await page.waitForFunction(() => document.documentElement.hasAttribute('data-printing'));
+    const pages = pages_of(await page.pdf({preferCSSPageSize: true}));
+    assert.ok(pages >= 1 && pages <= 4, `${pages} pages`);
+  }));
+
+test('the foot of a printed page has program, machine, day and number of the page', () => visit('pocket', async (page) => {
+  const rules = await page.evaluate(() => document.adoptedStyleSheets.flatMap((sheet) => [...sheet.cssRules].map((rule) => rule.cssText)).join());
+  assert.match(rules, /pocket\.ngc on Three-axis mill/);
+  assert.match(rules, /printed \d{4}-\d\d-\d\d/);
+  assert.match(rules, /counter\(page\).*counter\(pages\)/);
+}));

@@ -40,9 +40,12 @@ test('Enter on a worst block does the same', () => visit('pocket', (page) => fol
 test('a click beside the link of a row does as well', () => visit('pocket', (page) =>
   follows(page, 1, (link) => page.click(`${link.replace(/ a$/, '')} td:nth-child(4)`))));
 
-test('the worst block is chosen already when a page opens', () => visit('pocket', async (page) => {
-  assert.match(await page.innerText('#place h3'), new RegExp(`Line ${report_of('pocket').worst[0].line}$`));
-  assert.equal(await page.locator('#worst tr.chosen').count(), 1);
+test('a page opens at the place of the first card, and shows the numbers there', () => visit('pocket', async (page) => {
+  const {before} = report_of('pocket').summary;
+  assert.match(await page.innerText('#place h3'), new RegExp(`Line ${before.max_line}$`));
+  const card = await page.innerText('[data-card=before] strong');
+  assert.ok((await page.innerText('#place .cause')).startsWith(`Off by ${card} before`));
+  assert.equal(await page.innerText('#place .vector-sum tr.total td:last-child'), card.split(' ')[0]);
 }));
 
 test('every control is reached with the keyboard, the way past the bar first', () => visit('pocket', async (page) => {

@@ -2,13 +2,15 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {load_scripts, plain} from './load_scripts.mjs';
 
-const {pathModel, pick} = load_scripts('path_model.js', 'pick.js');
+const {pathModel, pick, arcs} = load_scripts('arcs.js', 'path_model.js', 'pick.js');
+
+const to = (high) => ({low: 0, high});
 
 /** Curves of a path along x, one stretch a mm; deviations in z. */
 function curves_of(before, after_rapid = before.map((_, i) => (i === 0 ? 1 : 0))) {
   const spread = (values) => Float32Array.from(values.flatMap((v) => (Number.isNaN(v) ? [v, v, v] : [0, 0, v])));
   return {s_mm: Float64Array.from(before, (_, i) => i),
-    place_mm: Float32Array.from(before.flatMap((_, i) => [i, 0, 0])),
+    place_mm: Float32Array.from(before.flatMap((_, i) => [i, 0, 0])), direction: null,
     after_rapid: Uint8Array.from(after_rapid), place_before_mm: spread(before),
     place_after_mm: spread(before.map(() => NaN)), quantities: {before_mm: {largest: Float32Array.from(before)}}};
 }
@@ -51,17 +53,17 @@ test('the box of a flat path, a line and a point has a size above zero; without 
 });
 
 test('gaps between known deviations are linear in path length', () => {
-  const path = pathModel.build(curves_of([0.1, NaN, NaN, 0.4]), 'before', [0, 0, 0], 0.4);
+  const path = pathModel.build(curves_of([0.1, NaN, NaN, 0.4]), 'before', [0, 0, 0], to(0.4));
   close(path.fraction, [0.25, 0.5, 0.75, 1]);
   close(path.deviation, [0, 0, 0.1, 0, 0, 0.2, 0, 0, 0.3, 0, 0, 0.4]);
 });
 
 test('at the ends of a run of feed moves the nearest known deviation holds', () => {
-  close(pathModel.build(curves_of([NaN, 0.2, NaN]), 'before', [0, 0, 0], 0.2).fraction, [1, 1, 1]);
+  close(pathModel.build(curves_of([NaN, 0.2, NaN]), 'before', [0, 0, 0], to(0.2)).fraction, [1, 1, 1]);
 });
 
 test('deviations are not carried across a rapid: unknown runs stay unknown', () => {
-  const path = pathModel.build(curves_of([0.2, 0.2, NaN, NaN], [1, 0, 1, 0]), 'before', [0, 0, 0], 0.2);
+  const path = pathModel.build(curves_of([0.2, 0.2, NaN, NaN], [1, 0, 1, 0]), 'before', [0, 0, 0], to(0.2));
   close(path.fraction, [1, 1, -1, -1]);
   close(path.deviation, [0, 0, 0.2, 0, 0, 0.2, 0, 0, 0, 0, 0, 0]);
 });
@@ -69,25 +71,59 @@ test('deviations are not carried across a rapid: unknown runs stay unknown', () 
 test('two stretches at one path length, the first of them unknown, give no division by zero', () => {
   const curves = curves_of([0.1, NaN, 0.3]);
   curves.s_mm.fill(5);
-  assert.ok(pathModel.build(curves, 'before', [0, 0, 0], 0.3).fraction.every((v) => v >= 0 && v <= 1));
+  assert.ok(pathModel.build(curves, 'before', [0, 0, 0], to(0.3)).fraction.every((v) => v >= 0 && v <= 1));
+});
+
+test('colours run from the least to the largest deviation', () => {
+  const curves = curves_of([0.25, 0.375, 0.5]);
+  const range = pathModel.rangeOf([pathModel.valued(curves, 'before')]);
+  close([range.low, range.high], [0.25, 0.5]);
+  close(pathModel.build(curves, 'before', [0, 0, 0], range).fraction, [0, 0.5, 1]);
+});
+
+test('without the common shift the deviations are those from their mean over the path', () => {
+  const curves = curves_of([0.3, 0.3, 0.3, 0.6]);
+  close(pathModel.meanOf(curves, 'before'), [0, 0, 0.4]);
+  close(pathModel.valued(curves, 'before', [0, 0, 0.4]).value, [0.1, 0.1, 0.1, 0.2]);
+  close(pathModel.build(curves, 'before', [0, 0, 0], to(0.2), [0, 0, 0.4]).fraction, [0.5, 0.5, 0.5, 1]);
+});
+
+/** A quarter of a circle of radius 10 about the origin, from (10, 0) to (0, 10), then a line. */
+const quarter = () => ({...curves_of([0.1, 0.2, 0.2]), place_mm: Float32Array.from([10, 0, 0, 0, 10, 0, -5, 10, 0]),
+  direction: Float32Array.from([0, 1, 0, -1, 0, 0, -1, 0, 0])});
+
+test('an arc is drawn with points on it, a line without', () => {
+  const path = pathModel.build(quarter(), 'before', [0, 0, 0], to(0.2));
+  assert.ok(path.count >= 31 && path.count <= 34, `${path.count}`);
+  for (let i = 0; i <= path.last[1]; ++i)
+    assert.ok(Math.abs(Math.hypot(path.place[3 * i], path.place[3 * i + 1]) - 10) < 1e-4, `${i}`);
+  assert.equal(path.last[2] - path.last[1], 1);
+  const middle = path.last[1] / 2;
+  close([path.fraction[middle], path.stretch[middle - 1], path.stretch[middle]], [0.75, 0, 1]);
+});
+
+test('without directions, and at a rapid, the path has the points of its stretches', () => {
+  assert.equal(pathModel.build({...quarter(), direction: null}, 'before', [0, 0, 0], to(0.2)).count, 3);
+  assert.equal(pathModel.build({...quarter(), after_rapid: Uint8Array.from([1, 1, 0])}, 'before', [0, 0, 0], to(0.2)).count, 3);
+  assert.deepEqual(plain(arcs.inside([0, 0, 0], [0, 0, 0], [1, 0, 0])), []);
 });
 
 test('a kind without any value is not known, and drawn as wanted', () => {
   const curves = curves_of([0.1, 0.2]);
   assert.deepEqual(plain(pathModel.kinds.map((kind) => pathModel.has(curves, kind))), [true, true, false]);
-  const path = pathModel.build(curves, 'after', [0, 0, 0], 0);
+  const path = pathModel.build(curves, 'after', [0, 0, 0], to(0));
   close(path.fraction, [-1, -1]);
   close(path.deviation, [0, 0, 0, 0, 0, 0]);
 });
 
 test('the wanted path has no deviation', () => {
-  const path = pathModel.build(curves_of([0.1, 0.2]), 'wanted', [0, 0, 0], 0);
+  const path = pathModel.build(curves_of([0.1, 0.2]), 'wanted', [0, 0, 0], to(0));
   close(path.fraction, [-1, -1]);
   close(path.deviation, [0, 0, 0, 0, 0, 0]);
 });
 
 test('a path is drawn around the origin that is given, exaggerated', () => {
-  const path = pathModel.build(curves_of([0.1, 0.2]), 'before', [1, 2, 3], 0.2);
+  const path = pathModel.build(curves_of([0.1, 0.2]), 'before', [1, 2, 3], to(0.2));
   close(pathModel.drawnAt(path, 1, 10), [0, -2, -1]);
   const box = pathModel.boxOf(path, 10);
   close([...box.low, ...box.high], [-1, -2, -3, 0, -2, -1]);

@@ -2,38 +2,57 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {load_scripts, plain} from './load_scripts.mjs';
 
-const {place, data} = load_scripts('page_data.js', 'units.js', 'dom.js', 'words.js', 'place.js');
+const {place, vectorSum, data} =
+  load_scripts('page_data.js', 'units.js', 'dom.js', 'words.js', 'vectors.js', 'vector_sum.js', 'place.js');
 
-/** Curves of stretches of these lines, each a mm long; NaN is not known. */
-function run_of(lines, before, load = before) {
-  const of = (values) => ({least: values, largest: values});
-  return {report: {}, curves: {s_mm: lines.map((_, i) => i + 1), first_line: lines, last_line: lines, operation: lines.map(() => -1),
-    place_mm: new Float32Array(3 * lines.length), quantities: {before_mm: of(before), load_mm: of(load), after_mm: of(before.map(() => 0.001))}}};
+/** Curves of stretches of these lines, each a mm long, deviations in x; NaN is not known. */
+function run_of(lines, before, load = before, after_rapid = lines.map(() => 0)) {
+  const of = (values) => ({least: values, largest: values}), zero = of(before.map(() => 0));
+  const vector = (name, values) => ({[`${name}_x_mm`]: of(values), [`${name}_y_mm`]: zero, [`${name}_z_mm`]: zero, [`${name}_mm`]: of(values)});
+  return {report: {}, source: {lines: [], output: ''}, curves: {s_mm: lines.map((_, i) => i + 1), first_line: lines, last_line: lines,
+    operation: lines.map(() => -1), after_rapid, place_mm: new Float32Array(3 * lines.length), waypoints_per_stretch: 1,
+    quantities: {...vector('before', before), ...vector('load', load), after_mm: of(before.map(() => 0.001))}}};
 }
 
-const told = (run, i) => {
-  const {before_mm, about, causes, after_mm} = place.ofStretch(run, i);
-  return plain([before_mm, about, causes.load_mm, after_mm]);
+const told = (run, i, row) => {
+  const {before_mm, about, sizes, after_mm} = place.ofStretch(run, i, row);
+  return plain([before_mm, about, (sizes || {}).load_mm, after_mm]);
 };
 
-test('a stretch without a deviation before shows that nearest on its block as "about"', () => {
+test('a stretch without a deviation before shows what is between its neighbours as "about"', () => {
   const run = run_of([5, 5, 5, 5, 5], [1, NaN, NaN, NaN, 2]);
-  assert.deepEqual(told(run, 1), [1, true, 1, 0.001]);
-  assert.deepEqual(told(run, 3), [2, true, 2, 0.001]);
+  assert.deepEqual(told(run, 1), [1.25, true, 1.25, 0.001]);
+  assert.deepEqual(told(run, 3), [1.75, true, 1.75, 0.001]);
   assert.deepEqual(told(run, 4), [2, false, 2, 0.001]);
 });
 
-test('values of other blocks are not used', () => {
-  const run = run_of([5, 6, 7, 6], [1, NaN, 3, 4]);
-  assert.deepEqual(told(run, 1), [null, false, null, 0.001]);
+test('the deviation and its causes at a place add up, also between two known places', () => {
+  const run = run_of([5, 5, 5], [1, NaN, 3], [0.5, NaN, 1]);
+  const {vectors, causes} = place.ofStretch(run, 1);
+  assert.deepEqual(plain([vectors.before.vector, causes[0].vector]), [[2, 0, 0], [0.75, 0, 0]]);
+});
+
+test('values beyond a rapid are not used', () => {
+  assert.deepEqual(told(run_of([5, 6, 7], [1, NaN, 3], undefined, [1, 1, 1]), 1), [null, false, null, 0.001]);
   assert.deepEqual(told(run_of([6], [NaN]), 0), [null, false, null, 0.001]);
 });
 
-test('a run without attribution shows the deviation', () => {
+test('a run without attribution shows the deviation, a chosen row has its own sizes of causes', () => {
   assert.deepEqual(told(run_of([5, 5], [1, 2], [NaN, NaN]), 1), [2, false, null, 0.001]);
-  const run = run_of([5, 5], [1, NaN]);
-  delete run.curves.quantities.load_mm;
-  assert.deepEqual(told(run, 1), [1, true, null, 0.001]);
+  assert.deepEqual(told(run_of([5, 5], [1, 2], [NaN, NaN]), 1, {line: 5, causes: {load_mm: 7}}), [2, false, 7, 0.001]);
+});
+
+test('the text of the line is in the program', () => {
+  const run = run_of([2, 3], [1, 2]);
+  run.source.lines = ['G21', 'G1 X5', 'Y5'];
+  assert.equal(place.ofStretch(run, 0).text, 'G1 X5');
+});
+
+test('the bars of causes follow each other along each axis, and end where that of their sum does', () => {
+  const rows = plain(vectorSum.spans([{vector: [1, -2, 0]}, {vector: [-3, -1, 0]}], [-2, -3, 0]));
+  assert.deepEqual(rows[0], [[0, 1], [0, -2], [0, 0]]);
+  assert.deepEqual(rows[1], [[1, -2], [-2, -3], [0, 0]]);
+  assert.deepEqual(rows[2], [[0, -2], [0, -3], [0, 0]]);
 });
 
 test('the conclusion of two runs is a text, or empty', () => {

@@ -129,6 +129,7 @@ test('controls choose the side, the path and the exaggeration', () => visit('poc
     assert.deepEqual([now.azimuth, now.elevation].map(Number), [azimuth, elevation], button);
     assert.ok((await path_pixels(page)).length > 300, button);
   }
+  await changed(page, () => page.check('.scene-view input[value="before"]'));
   const usual = Number((await state(page)).factor);
   const pictures = new Set([await picture(page)]);
   for (const kind of ['wanted', 'after']) {

@@ -41,6 +41,7 @@
       series: list,
       ...tables.tabulate(list, group.total, context.units.lengthScale),
       placeText: ({run, stretch}) => (stretch < 0 ? 'no line' : counterflex.lines.words(context.runs[run].curves, stretch)),
+      lineOf: ({run, stretch}) => (stretch < 0 ? '' : context.runs[run].curves.first_line[stretch]),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
       ...rest,
     };
@@ -90,7 +91,8 @@
       const tolerance = look.levels ? toleranceText(context, part) : '';
       const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${tolerance}`;
       const levels = look.levels ? toleranceLevels(context, part, log) : [];
-      const rest = {title, log, text: textIn(part, units), levels};
+      const axis = `${part === 'rotation_' ? 'Rotation' : 'Deviation'}, ${part === 'rotation_' ? 'deg' : units.label}`;
+      const rest = {title, axis, log, text: textIn(part, units), levels};
       return describe(context, group, points, wanted, scaleOf(part, units), rest);
     };
   }
@@ -188,7 +190,7 @@
     const update = () => fill(note, discrepancySentence(context));
     const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
       title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`,
-      log: state.log, text: textIn('', context.units)});
+      axis: `Deviation, ${context.units.label}`, log: state.log, text: textIn('', context.units)});
     state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
     context.units.subscribe(update);
     update();
@@ -209,7 +211,7 @@
     const acts = context.runs.some((run) => run.report.forces.largest_N > 0);
     if (!has(context, 'force_N') || !acts) return null;
     const content = () => describe(context, group, points, forceSeries, 1, {
-      title: 'Cutting force on the tool, machine axes, in N', text: (v) => `${v.toFixed(1)} N`});
+      title: 'Cutting force on the tool, machine axes, in N', axis: 'Force, N', text: (v) => `${v.toFixed(1)} N`});
     const plots = [counterflex.plot.create(context, group, content, 'force')];
     return {plots, content: plots[0].node};
   }

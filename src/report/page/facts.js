@@ -45,17 +45,16 @@
     return compared('Options', runs, [...heads, ...rows]);
   }
 
-  function assumptions(run) {
-    const {not_modelled: notModelled = [], ...taken} = run.report.assumptions;
-    const list = (sentences) => el('ul', null, sentences.map((sentence) => el('li', null, sentence)));
-    return el('div', {class: 'stack'}, el('h3', null, words.ofRun(run, 'Assumptions')),
-        list(Object.values(taken).filter(Boolean)),
-        notModelled.length > 0 ? [el('p', null, 'Not modelled:'), list(notModelled)] : null);
+  function notModelled(run) {
+    const {not_modelled: list = []} = run.report.assumptions || {};
+    if (list.length === 0) return null;
+    return el('div', {class: 'stack'}, el('h3', null, words.ofRun(run, 'Not modelled')),
+        el('ul', null, list.map((sentence) => el('li', null, sentence))));
   }
 
-  /** Assumptions, inputs with their hashes, options and version. */
+  /** What is not modelled, inputs with their hashes, options and version. */
   function render({runs, units}) {
-    return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(assumptions)), inputs(runs), options(runs, units));
+    return el('div', {class: 'stack'}, el('div', {class: 'runs'}, runs.map(notModelled)), inputs(runs), options(runs, units));
   }
 
   const blockRows = [['Blocks', 'total'], ['Moves', 'moves'], ['Corrected individually', 'corrected'],

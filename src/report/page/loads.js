@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, bar, table, textColumn, numberColumn, radios} = counterflex.dom;
+  const {el, bar, table, textColumn, radios} = counterflex.dom;
   const {known} = counterflex.units;
   const {series: tables, words} = counterflex;
 
@@ -24,7 +24,6 @@
 
   /** Share of its limit that a load uses, as a bar and in words. */
   function use(load) {
-    if (!known(load.limit)) return 'no limit given';
     const share = load.largest / load.limit;
     const drawing = bar(share, exceeds(load) ? 'over' : 'within');
     return el('span', {class: 'use'}, drawing, `${(100 * share).toFixed(0)} %${exceeds(load) ? ': above the limit' : ''}`);
@@ -39,33 +38,32 @@
     return {s_mm: run.loads.s_mm[best]};
   }
 
-  function rowsOf(chain, context, index, limited) {
-    return quantities.filter(([name]) => chain[name] && chain[name].largest > 0).map(([name, what, unit]) => {
-      const load = chain[name];
-      const where = placeOfLargest(context.runs[index], chain, name);
-      const line = counterflex.lines.link(context, index, load.line, where);
-      const largest = [chain.name, what, textOf(load.largest, unit, context.units), line];
-      const limit = limited ? [known(load.limit) ? textOf(load.limit, unit, context.units) : '\u2013', use(load)] : [];
-      return Object.assign([...largest, ...limit], {limited: known(load.limit), mark: exceeds(load) ? 'exceeded' : ''});
-    });
-  }
-
   const hasLimit = (chain) => quantities.some(([name]) => chain[name] && known(chain[name].limit));
 
-  /** The largest loads of each chain against their limits, those that have one first. */
+  /** "23.3 N m, line 9", and the use of the limit. */
+  function cellOf(chain, name, unit, context, index) {
+    const load = chain[name];
+    if (!load || !(load.largest > 0)) return '\u2013';
+    const line = counterflex.lines.link(context, index, load.line, placeOfLargest(context.runs[index], chain, name));
+    const limit = known(load.limit) ? el('div', null, `limit ${textOf(load.limit, unit, context.units)} `, use(load)) : null;
+    return [el('span', {class: exceeds(load) ? 'over' : null}, textOf(load.largest, unit, context.units)), ', line ', line, limit];
+  }
+
+  /** The largest loads: a row for each kind, those with a limit first; a column for each chain. */
   function tableOf(context, index) {
     const run = context.runs[index];
     const {loads} = run.report;
     if (!loads) return null;
-    const limited = loads.chains.some(hasLimit);
-    const rows = loads.chains.flatMap((chain) => rowsOf(chain, context, index, limited))
-        .sort((a, b) => b.limited - a.limited);
-    if (rows.length === 0) return null;
-    const columns = [{title: 'Chain'}, textColumn('Load'), numberColumn('Largest'), numberColumn('Line'),
-      ...(limited ? [numberColumn('Limit'), textColumn('Of the limit')] : [])];
-    const caption = [`Largest loads at ${loads.places} places of the path`,
+    const {chains} = loads;
+    const limited = (name) => chains.some((chain) => chain[name] && known(chain[name].limit));
+    const present = quantities.filter(([name]) => chains.some((chain) => chain[name] && chain[name].largest > 0))
+        .sort(([a], [b]) => limited(b) - limited(a));
+    if (present.length === 0) return null;
+    const columns = [{title: 'Load'}, ...chains.map((chain) => textColumn(chain.name))];
+    const rows = present.map(([name, what, unit]) => [what, ...chains.map((chain) => cellOf(chain, name, unit, context, index))]);
+    const caption = [`Largest loads of each chain at ${loads.places} places of the path`,
       loads.unsolved > 0 && `unknown at ${loads.unsolved} more`,
-      !limited && 'the machine file gives no limits'].filter(Boolean).join('; ');
+      !chains.some(hasLimit) && 'the machine file gives no limits'].filter(Boolean).join('; ');
     return table(words.ofRun(run, caption), columns, rows);
   }
 
@@ -110,9 +108,11 @@
     const series = seriesOf(context, points, name, scale);
     return {
       title: `${what} of each chain, in ${unit || context.units.words}`,
+      axis: `${what}, ${unit || context.units.label}`,
       series,
       ...tables.tabulate(series, group.total, context.units.lengthScale),
       levels: levels(context, name, scale), text: (v) => textOf(v / scale, unit, context.units),
+      lineOf: ({line}) => (line > 0 ? line : ''),
       placeText: ({line}) => (line > 0 ? `line ${line}` : 'no line'),
       select: ({run, stretch}) => stretch >= 0 && context.selection.set(run, stretch),
     };

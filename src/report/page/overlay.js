@@ -28,11 +28,12 @@
     context.stroke();
   }
 
-  /** Round numbers between 0 and `most`, in steps of 1, 2 or 5 times a power of ten; about `count` of them. */
-  function ticks(most, count) {
-    if (!(most > 0)) return [0];
-    const step = counterflex.pathModel.oneTwoFive(most / count);
-    return Array.from({length: Math.floor(most / step) + 1}, (_, i) => Number((i * step).toPrecision(6)));
+  /** Round numbers from `least` to `most`, in steps of 1, 2 or 5 times a power of ten; about `count` of them. */
+  function ticks(least, most, count) {
+    if (!(most > least)) return [least];
+    const step = counterflex.pathModel.oneTwoFive((most - least) / count);
+    const first = Math.ceil(least / step - 1e-9), last = Math.floor(most / step + 1e-9);
+    return Array.from({length: Math.max(0, last - first + 1)}, (_, i) => Number(((first + i) * step).toPrecision(6)));
   }
 
   /** Background behind numbers, so that lines do not cross them. */
@@ -50,42 +51,44 @@
     }
   }
 
-  /** Round numbers below the scale, without overlap with the largest value at its end. */
-  function scaleNumbers(context, theme, bar, units, x, y, width) {
-    const last = String(units.number(bar.most_mm));
+  /** The least and the largest value at the ends of the scale, and round numbers between them where there is room. */
+  function scaleNumbers(context, theme, {range}, units, x, y, width) {
+    const ends = [range.low, range.high].map((mm) => String(units.number(mm)));
     context.font = font;
-    const room = width - context.measureText(last).width / 2 - 8;
-    const perMm = units.scale;
-    for (const tick of ticks(bar.most_mm * perMm, 4)) {
-      const at = (width * tick) / (bar.most_mm * perMm);
-      const half = context.measureText(String(tick)).width / 2;
-      if (at + half > room) continue;
+    const half = (text) => context.measureText(text).width / 2;
+    const [from, to] = [2 * half(ends[0]) + 8, width - 2 * half(ends[1]) - 8];
+    const [low, high] = [range.low * units.scale, range.high * units.scale];
+    for (const tick of ticks(low, high, 4)) {
+      const at = (width * (tick - low)) / (high - low);
+      if (!(at - half(String(tick)) > from && at + half(String(tick)) < to)) continue;
       line(context, theme.ink, 1, [x + at, y], [x + at, y + 4]);
-      write(context, theme, String(tick), x + Math.max(at, half), y + 12, 'center');
+      write(context, theme, String(tick), x + at, y + 12, 'center');
     }
-    line(context, theme.ink, 1, [x + width, y], [x + width, y + 4]);
-    write(context, theme, last, x + width, y + 12, 'center');
+    for (const at of [0, width]) line(context, theme.ink, 1, [x + at, y], [x + at, y + 4]);
+    write(context, theme, ends[0], x, y + 12, 'left');
+    write(context, theme, ends[1], x + width, y + 12, 'right');
   }
 
-  /** A triangle at the tolerance, or a note if all deviations are within it. */
-  function toleranceMark(context, theme, bar, units, x, y, width) {
-    if (!(bar.tolerance_mm > 0)) return;
-    const within = bar.tolerance_mm >= bar.most_mm;
-    const at = x + Math.min(1, bar.tolerance_mm / bar.most_mm) * width;
-    const text = `tolerance ${units.format(bar.tolerance_mm)}`;
-    if (within) return write(context, theme, `all within the ${text}`, x, y + 36, 'left', theme.muted);
+  /** A triangle at the tolerance, or a note if it is outside the scale. */
+  function toleranceMark(context, theme, {range, tolerance_mm: tolerance}, units, x, y, width) {
+    if (!(tolerance > 0)) return;
+    const text = `tolerance ${units.format(tolerance)}`;
+    const note = (words) => write(context, theme, words, x, y + 36, 'left', theme.muted);
+    if (tolerance >= range.high) return note(`all within the ${text}`);
+    if (tolerance < range.low) return note(`all above the ${text}`);
+    const at = x + ((tolerance - range.low) / (range.high - range.low)) * width;
     context.beginPath();
     context.moveTo(at, y - 1);
     context.lineTo(at - 4, y - 7);
     context.lineTo(at + 4, y - 7);
     context.fillStyle = counterflex.colours.css(theme.ink);
     context.fill();
-    write(context, theme, `\u25be ${text}`, x, y + 36, 'left', theme.muted);
+    note(`\u25be ${text}`);
   }
 
-  /** The scale of colours, upper left: {title, most_mm, tolerance_mm}; without a largest value only the title. */
+  /** The scale of colours, upper left: {title, range: {low, high} in mm, tolerance_mm}; without a largest value only the title. */
   function colourBar(context, size, theme, bar, units) {
-    if (!(bar.most_mm > 0)) return write(context, theme, bar.title, edge, edge + 6);
+    if (!(bar.range.high > 0)) return write(context, theme, bar.title, edge, edge + 6);
     const width = Math.round(Math.min(260, 0.6 * size.width));
     const y = edge + 22;
     plate(context, theme, 0, 0, width + 4 * edge, y + 48);

@@ -20,16 +20,17 @@
   function contextOf(runs, conclusion) {
     const shown = (runs[0].report.units || {}).shown || 'um';
     const units = counterflex.units.create(shown), selection = counterflex.selection.create();
-    return {runs, conclusion, units, selection, scene: null, group: null, plots: []};
+    return {runs, conclusion, units, selection, scene: null, program: null, group: null, plots: []};
   }
 
   /** Sections of text and tables. A change of unit renders them again. */
   function renderTexts(context) {
     const {tables, remarks, facts} = counterflex;
-    const sections = {operations: tables.operations, sensitivity: tables.sensitivity, remarks: remarks.render,
+    const sections = {failure: counterflex.failure.render, operations: tables.operations, sensitivity: tables.sensitivity, remarks: remarks.render,
       numbers: tables.numbers, program: facts.program, facts: facts.render};
     fill(document.getElementById('verdict'), counterflex.summary.render(context));
     fill(body('worst'), counterflex.worst.render(context));
+    document.getElementById('worst').hidden = !context.runs.some((run) => run.report.worst.length > 0);
     for (const [id, render] of Object.entries(sections)) {
       const content = render(context);
       document.getElementById(id).hidden = content === null;
@@ -39,14 +40,19 @@
     renderPlace(context);
   }
 
-  /** The card of the selected place: of a worst block if it was selected in the table, else of the stretch. */
+  /** The values at the selected place; `row`: of the worst blocks, if it was chosen there. Null without a place. */
+  function placeOf(run, stretch, row) {
+    if (run.curves && stretch >= 0) return counterflex.place.ofStretch(run, stretch, row || undefined);
+    return row ? counterflex.place.ofRow(row) : null;
+  }
+
+  /** The card of the selected place. */
   function renderPlace(context) {
     const {selection, runs, row} = context;
     const run = runs[selection.run];
     const chosen = row && row.run === selection.run && row.stretch === selection.stretch ? row.row : null;
-    const {place} = counterflex;
-    const known = chosen || (run.curves && selection.stretch >= 0 ? place.ofStretch(run, selection.stretch) : null);
-    fill(body('place'), known ? place.card(run, known, context.units) : el('p', null, 'No place is selected.'));
+    const known = placeOf(run, selection.stretch, chosen);
+    fill(body('place'), known ? counterflex.place.card(run, known, context.units) : el('p', null, 'No place is selected.'));
     counterflex.worst.mark(body('worst'), selection.run, chosen ? chosen.line : -1);
   }
 
@@ -118,10 +124,32 @@
   function renderScene(context) {
     const {runs, units, selection} = context;
     if (!counterflex.scene || !runs.some((run) => run.curves)) return hide('path');
-    context.scene = counterflex.scene.create(document.getElementById('path-view'), {runs, units, selection});
+    context.program = counterflex.programView.create(context);
+    document.getElementById('code-view').append(context.program.element);
+    const hovered = (run, stretch) => context.program.point(run, stretch);
+    context.scene = counterflex.scene.create(document.getElementById('path-view'), {runs, units, selection, hovered});
     units.subscribe(() => context.scene.unitChanged());
     counterflex.theme.subscribe(() => context.scene.themeChanged());
     window.addEventListener('resize', () => context.scene.resize());
+  }
+
+  /**
+   * Selects the place to show first: that of a failed verification, else the largest deviation before, which the first
+   * card has, else the first of the worst blocks.
+   */
+  function selectFirst(context) {
+    const {runs, selection} = context;
+    const failed = runs.findIndex((run) => counterflex.failure.stretchOf(run) >= 0);
+    if (failed >= 0) return selection.set(failed, counterflex.failure.stretchOf(runs[failed]));
+    const run = runs.findIndex(({report}) => report.worst.length > 0);
+    if (run < 0) return hide('place');
+    const {curves, report} = runs[run];
+    const line = report.summary.before ? report.summary.before.max_line : 0;
+    const stretch = curves && line > 0 ? counterflex.lines.stretchOf(curves, line, 'before_mm') : -1;
+    const row = report.worst.find((one) => one.line === line);
+    if (stretch < 0) return selectRow(context, run, report.worst[0]);
+    if (row) context.row = {run, stretch, row};
+    selection.set(run, stretch);
   }
 
   function start(json) {
@@ -138,9 +166,8 @@
     renderScene(context);
     context.units.subscribe(() => renderTexts(context));
     context.selection.subscribe(() => renderPlace(context));
-    const worst = runs.findIndex((run) => run.report.worst.length > 0);
-    if (worst >= 0) selectRow(context, worst, runs[worst].report.worst[0]);
-    else hide('place');
+    selectFirst(context);
+    renderPlace(context);
     counterflex.toolbar.contents(document.getElementById('contents'));
     counterflex.paper(context);
     counterflex.context = context;

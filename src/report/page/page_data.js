@@ -34,8 +34,15 @@ const counterflex = {};
       place_mm: typed('F32', c.place_mm),
       place_before_mm: typed('F32', c.place_before_mm),
       place_after_mm: typed('F32', c.place_after_mm),
+      direction: c.direction ? typed('F32', c.direction) : null,
       quantities,
     };
+  }
+
+  /** {lines: of the original program, [] if its text is unknown; output: the path of the corrected program, or ''}. */
+  function decodeSource(source) {
+    const {text, output} = source || {};
+    return {lines: typeof text === 'string' ? text.split('\n') : [], output: output || ''};
   }
 
   /** With two runs each has a letter, A or B, besides its name. */
@@ -47,10 +54,11 @@ const counterflex = {};
       report: run.report,
       curves: decodeCurves(run.curves),
       loads: run.loads || null,
+      source: decodeSource(run.source),
     };
   }
 
-  /** The runs of a page's data: {letter, name, report, curves | null, loads | null}. Throws on another schema. */
+  /** The runs of a page's data: {letter, name, report, curves | null, loads | null, source}. Throws on another schema. */
   function decode(json) {
     if (json.schema !== 'counterflex-page 1') throw new Error(`the data is of the schema ${json.schema}`);
     return json.runs.map((run, index) => decodeRun(run, index, json.runs.length));

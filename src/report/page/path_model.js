@@ -1,7 +1,7 @@
 'use strict';
 /**
  * The data of the path views: places of one run relative to an origin nearby (for single precision), deviations there,
- * and their fractions of the largest one. Pure functions of the decoded curves.
+ * and their fractions of the range of colours. Pure functions of the decoded curves.
  */
 (() => {
   const kinds = ['wanted', 'before', 'after'];
@@ -24,12 +24,12 @@
 
   const sizeOf = ({low, high}) => Math.max(...high.map((v, i) => v - low[i])) || 10;
 
-  /** The largest deviation of a kind over all curves, mm; 0 if all are unknown. */
-  function largest(allCurves, kind) {
-    let most = 0;
-    for (const curves of allCurves)
-      for (const v of curves.quantities[`${kind}_mm`]?.largest ?? []) if (v > most) most = v;
-    return most;
+  /** The least and the largest deviation of a kind over all `paths` of `valued`, mm: {low, high}; zeros if all are unknown. */
+  function rangeOf(paths) {
+    let [low, high] = [Infinity, -Infinity];
+    for (const {value} of paths)
+      for (const v of value) if (Number.isFinite(v)) [low, high] = [Math.min(low, v), Math.max(high, v)];
+    return low <= high ? {low, high} : {low: 0, high: 0};
   }
 
   /** The nearest number, by ratio, of the form 1, 2 or 5 times a power of ten. */
@@ -96,25 +96,52 @@
     return result;
   }
 
+  /** The mean of the deviations of a kind over the path, each weighed by the length of its stretch: [x, y, z] in mm. */
+  function meanOf(curves, kind) {
+    const sum = [0, 0, 0];
+    let length = 0, before = 0;
+    curves.s_mm.forEach((s, i) => {
+      const vector = curves[`place_${kind}_mm`].subarray(3 * i, 3 * i + 3);
+      if (vector.every(Number.isFinite)) {
+        vector.forEach((v, k) => { sum[k] += v * (s - before); });
+        length += s - before;
+      }
+      before = s;
+    });
+    return length > 0 ? sum.map((v) => v / length) : [0, 0, 0];
+  }
+
   /**
-   * The path of one run and kind, relative to `origin` (mm, machine frame): {count, place, deviation (0 if unknown),
-   * fraction (of `most_mm`; -1 if unknown), rapid (1: a rapid leads to here)}.
+   * The deviations of a kind at all stretches, without `shift` ([x, y, z] in mm): {deviation (0 if unknown), value: its
+   * size, NaN if unknown}. An unknown one is interpolated.
    */
-  function build(curves, kind, origin, most_mm) {
+  function valued(curves, kind, shift = [0, 0, 0]) {
     const count = curves.place_mm.length / 3;
+    if (kind === 'wanted' || !has(curves, kind)) return {deviation: new Float32Array(3 * count), value: new Float32Array(count).fill(NaN)};
     const runs = feedRuns(curves.after_rapid);
+    const {largest} = curves.quantities[`${kind}_mm`];
+    const vectors = filled(curves[`place_${kind}_mm`], 3, curves.s_mm, runs);
+    const moved = vectors.map((v, i) => v - shift[i % 3]);
+    const size = (i) => Math.hypot(moved[3 * i], moved[3 * i + 1], moved[3 * i + 2]);
+    const isShifted = shift.some((v) => v !== 0);
+    const value = largest.map((v, i) => (isShifted || Number.isNaN(v) ? size(i) : v));
+    return {deviation: moved.map((v) => (Number.isFinite(v) ? v : 0)), value};
+  }
+
+  /**
+   * The path of one run and kind, relative to `origin` (mm, machine frame), as points: {count, place, deviation, value,
+   * fraction (0 to 1 of `range` {low, high}; -1 if unknown), rapid (1: a rapid leads to here), stretch: of each point,
+   * last: the last point of each stretch}. An arc has more points than its stretch.
+   */
+  function build(curves, kind, origin, range, shift) {
     const place = Float32Array.from(curves.place_mm, (v, i) => v - origin[i % 3]);
-    const path = {count, place, deviation: new Float32Array(3 * count), rapid: curves.after_rapid,
-      fraction: new Float32Array(count).fill(-1)};
-    if (kind === 'wanted' || !has(curves, kind)) return path;
-    const value = filled(curves.quantities[`${kind}_mm`].largest, 1, curves.s_mm, runs);
-    path.fraction = value.map((v) => (Number.isFinite(v) ? (most_mm > 0 ? v / most_mm : 0) : -1));
-    path.deviation = filled(curves[`place_${kind}_mm`], 3, curves.s_mm, runs)
-      .map((v) => (Number.isFinite(v) ? v : 0));
+    const path = counterflex.arcs.refined({place, rapid: curves.after_rapid, direction: curves.direction, ...valued(curves, kind, shift)});
+    const size = range.high - range.low;
+    path.fraction = path.value.map((v) => (Number.isNaN(v) ? -1 : size > 0 ? (v - range.low) / size : 0));
     return path;
   }
 
-  /** The drawn place of stretch `i` of a path: [x, y, z]. */
+  /** The drawn place of point `i` of a path: [x, y, z]. */
   const drawnAt = ({place, deviation}, i, factor) =>
     [0, 1, 2].map((k) => place[3 * i + k] + factor * deviation[3 * i + k]);
 
@@ -124,6 +151,6 @@
     return bounds([{place_mm: path.place}, {place_mm: drawn}]);
   }
 
-  counterflex.pathModel = {kinds, has, bounds, sizeOf, largest, oneTwoFive, exaggeration, exaggerations, bearable,
+  counterflex.pathModel = {kinds, has, bounds, sizeOf, rangeOf, meanOf, valued, oneTwoFive, exaggeration, exaggerations, bearable,
     filled, feedRuns, build, drawnAt, boxOf};
 })();

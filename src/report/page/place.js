@@ -1,6 +1,6 @@
 'use strict';
 (() => {
-  const {el, bar} = counterflex.dom;
+  const {el} = counterflex.dom;
   const {known, fixed} = counterflex.units;
   const words = counterflex.words;
 
@@ -11,84 +11,82 @@
     return Number.isNaN(value) ? null : value;
   }
 
-  const partNames = ['geometry', 'load', 'gravity', 'preloads', 'discrepancy'];
+  const causeKeys = ['geometry', 'load', 'gravity', 'preloads', 'discrepancy'];
+
+  /** The causes at a stretch, [{key, name, vector}]; [] if they are unknown. */
+  function causesAt(curves, i) {
+    const list = causeKeys.map((base) => ({key: `${base}_mm`, name: words.partName(`${base}_mm`), ...counterflex.vectors.at(curves, base, i)}));
+    return list.filter(({vector}) => vector);
+  }
+
+  /** Sizes of causes under the keys of a report's row. */
+  const sizesOf = (causes) => Object.fromEntries(causes.map(({key, vector}) => [key, counterflex.vectors.norm(vector)]));
 
   /**
-   * The stretch of the same block nearest to `i` with a known deviation before and known parts (they are computed only
-   * at ends of pieces); `i` without such a stretch.
+   * All values at one place, the end of a stretch: {line, last_line, s_mm, place_mm, before_mm, about: whether it is
+   * interpolated, after_mm, vectors: {before, after, correction}, each {vector, about} or null, causes: vectors, sizes,
+   * force_N, tool, operation, text}. `row`: of the worst blocks, if it was chosen there.
    */
-  function nearestKnown(c, i) {
-    const present = partNames.filter((part) => c.quantities[`${part}_mm`]);
-    const attributed = (k) => present.length === 0 || present.some((part) => at(c, `${part}_mm`, k) !== null);
-    const knows = (k) => at(c, 'before_mm', k) !== null && attributed(k);
-    const line = c.first_line[i];
-    if (knows(i) || c.last_line[i] !== line) return i;
-    const search = (step) => {
-      let k = i + step;
-      while (c.first_line[k] === line && c.last_line[k] === line && !knows(k)) k += step;
-      return c.first_line[k] === line && knows(k) ? [k] : [];
-    };
-    const far = (k) => Math.abs(c.s_mm[k] - c.s_mm[i]);
-    return [...search(-1), ...search(1)].sort((a, b) => far(a) - far(b))[0] ?? i;
-  }
-
-  /** The data of a stretch of the path, in the form of a row of the worst blocks. */
-  function ofStretch(run, i) {
+  function ofStretch(run, i, row = {}) {
     const c = run.curves;
     const operation = (run.report.operations || [])[c.operation[i]];
-    const from = nearestKnown(c, i);
-    const causes = Object.fromEntries(partNames.map((part) => [`${part}_mm`, at(c, `${part}_mm`, from)]));
+    const vectors = Object.fromEntries(['before', 'after', 'correction'].map((base) => [base, counterflex.vectors.at(c, base, i)]));
+    const causes = vectors.before ? causesAt(c, i) : [];
+    const {before} = vectors;
     return {
-      line: c.first_line[i], last_line: c.last_line[i], s_mm: c.s_mm[i],
+      line: row.line || c.first_line[i], last_line: row.line || c.last_line[i], s_mm: c.s_mm[i],
       place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
-      before_mm: at(c, 'before_mm', from), about: from !== i, after_mm: at(c, 'after_mm', i), force_N: at(c, 'force_N', i),
-      tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '', text: null, causes,
+      before_mm: before ? counterflex.vectors.norm(before.vector) : at(c, 'before_mm', i), about: Boolean(before && before.about),
+      after_mm: at(c, 'after_mm', i), vectors, causes, sizes: causes.length > 0 ? sizesOf(causes) : row.causes,
+      force_N: at(c, 'force_N', i), tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '',
+      text: row.text || lineText(run, c.first_line[i]),
     };
   }
 
-  function barOf(part, largest, units) {
-    const drawing = bar(largest > 0 ? part.mm / largest : 0, part.key);
-    const size = el('span', null, units.format(part.mm));
-    return el('div', {class: 'bar'}, el('dt', null, part.name), el('dd', null, drawing, size));
-  }
+  /** The same for a row of a run without curves: it has sizes, but no vectors. */
+  const ofRow = (row) => ({...row, about: false, vectors: {}, causes: [], sizes: row.causes});
 
-  /** Parts of the deviation before; the longest bar has full length. */
-  function bars(causes, units) {
-    const parts = words.parts(causes);
-    if (parts.length === 0) return null;
-    const largest = Math.max(...parts.map((part) => part.mm));
-    return el('dl', {class: 'bars'}, parts.map((part) => barOf(part, largest, units)));
-  }
+  const lineText = (run, line) => (run.source && run.source.lines[line - 1]) || '';
 
-  function causeSentence(row, units) {
-    const cause = words.cause(row.causes);
-    if (!cause) return null;
-    const size = known(row.before_mm) ? `Off by ${row.about ? 'about ' : ''}${units.format(row.before_mm)} before: ` : '';
-    return el('p', {class: 'cause'}, `${size}${cause}.`);
+  function causeSentence({before_mm: before, about, after_mm: after, sizes}, units) {
+    const cause = words.cause(sizes);
+    if (!known(before)) return null;
+    const size = `Off by ${about ? 'about ' : ''}${units.format(before)} before${cause ? `: ${cause}` : ''}.`;
+    return el('p', {class: 'cause'}, size, known(after) ? ` After: ${units.format(after)}.` : '');
   }
 
   function fact(name, value) {
     return [el('dt', null, name), el('dd', null, value)];
   }
 
-  function facts(row, units) {
-    const place = (row.place_mm || []).map((x) => units.lengthNumber(x)).join(', ');
+  function facts(place, units) {
+    const where = (place.place_mm || []).map((x) => units.lengthNumber(x)).join(', ');
     return el('dl', {class: 'facts'},
-        known(row.after_mm) && fact('After (model residual)', units.format(row.after_mm)),
-        fact('Cutting force', known(row.force_N) ? `${fixed(row.force_N, 1)} N` : 'unknown'),
-        fact('Tool', words.toolName(row.tool)), row.operation && fact('Operation', row.operation),
-        known(row.s_mm) && fact('Place on the path', units.length(row.s_mm)),
-        place && fact('Machine x, y, z', `${place} ${units.lengthLabel}`));
+        fact('Cutting force', known(place.force_N) ? `${fixed(place.force_N, 1)} N` : 'unknown'),
+        fact('Tool', words.toolName(place.tool)), place.operation && fact('Operation', place.operation),
+        known(place.s_mm) && fact('Place on the path', units.length(place.s_mm)),
+        where && fact('Machine x, y, z', `${where} ${units.lengthLabel}`));
   }
 
-  /** The card of a place: its line, its cause in words and bars, and the force. */
-  function card(run, row, units) {
-    const lines = row.last_line > row.line ? `Lines ${row.line} to ${row.last_line}` : `Line ${row.line}`;
-    return el('div', {class: 'place-card', 'data-line': row.line},
+  function vectorTable({vectors, causes}, units) {
+    if (!vectors.before || causes.length === 0) return null;
+    const others = [['Correction', vectors.correction], ['After (model residual)', vectors.after]]
+        .filter(([, value]) => value).map(([name, value]) => [name, value.vector]);
+    return counterflex.vectorSum.render(`Causes at this place, in ${units.words}, axes of the machine`, causes, vectors.before.vector,
+        others, units);
+  }
+
+  /** The deviation at a place in a sentence, and its causes as a sum of vectors. */
+  const causes = (place, units) => [causeSentence(place, units), vectorTable(place, units)];
+
+  /** The card of a place: its line, and there the deviation, its causes as a sum of vectors, and the force. */
+  function card(run, place, units) {
+    const lines = place.last_line > place.line ? `Lines ${place.line} to ${place.last_line}` : `Line ${place.line}`;
+    return el('div', {class: 'place-card', 'data-line': place.line},
         el('h3', null, words.ofRun(run, lines)),
-        row.text ? el('pre', null, el('code', null, row.text)) : null,
-        causeSentence(row, units), bars(row.causes, units), facts(row, units));
+        place.text ? el('pre', null, el('code', null, place.text)) : null,
+        causes(place, units), facts(place, units));
   }
 
-  counterflex.place = {card, ofStretch};
+  counterflex.place = {card, causes, ofStretch, ofRow};
 })();

@@ -6,7 +6,7 @@
   // The legend of dygraphs writes style attributes, which the page's security policy forbids.
   Dygraph.PLUGINS = Dygraph.PLUGINS.filter((plugin) => plugin !== Dygraph.Plugins.Legend);
 
-  const paperWidth = 680;  // px: fits between the margins of A4 and of letter
+  const paperWidth = 680, paperHeight = 128;  // px: fits between the margins of A4 and of letter
 
   function lowerBound(rows, x) {
     let low = 0, high = rows.length - 1;
@@ -82,6 +82,8 @@
       dateWindow: windowOf(plot),
       logscale: Boolean(log),
       includeZero: !log,
+      xlabel: `Path length, ${plot.context.units.lengthLabel}`,
+      ylabel: plot.content.axis,
       axes: {x: {...axis, drawGrid: false, ticker: Dygraph.numericTicks},
         y: {...axis, axisLabelWidth: 64, pixelsPerLabel: 26}},
     };
@@ -129,7 +131,7 @@
     touchend: () => {}};
 
   const fixed = {interactionModel, connectSeparatedPoints: true, pointSize: 2, drawGapEdgePoints: true, highlightCircleSize: 4,
-    xRangePad: 4, yRangePad: 12, rightGap: 12, axisLineWidth: 1, gridLineWidth: 1};
+    xRangePad: 4, yRangePad: 12, rightGap: 12, xLabelHeight: 16, yLabelWidth: 18, axisLineWidth: 1, gridLineWidth: 1};
 
   /** Changes the graph without zooming the other plots. */
   function quietly(plot, change) {
@@ -182,6 +184,7 @@
     plot.ensure();
     plot.host.querySelectorAll('.paper-copy').forEach((copy) => copy.remove());
     plot.host.style.width = on ? `${paperWidth}px` : '';
+    plot.host.style.height = on ? `${paperHeight}px` : '';
     quietly(plot, () => {
       plot.graph.updateOptions({pixelRatio: on ? 3 : null, dateWindow: windowOf(plot)}, true);
       plot.graph.resize();
@@ -190,18 +193,19 @@
   }
 
   function frame(plot, className) {
+    const save = counterflex.chartFiles.buttons(plot, className);
     plot.host = el('div', {class: `plot ${className}`, tabindex: 0, role: 'application',
       keydown: (event) => key(plot, event)});
     plot.legend = {title: el('h3'), entries: el('div', {class: 'entries'}), paper: el('div', {class: 'entries paper'}),
       readout: el('p', {class: 'readout'}, '\u00a0')};
     const {title, entries, paper, readout: values} = plot.legend;
-    plot.node = el('figure', null, el('figcaption', null, title, entries, paper), plot.host, values);
+    plot.node = el('figure', null, el('figcaption', null, title, entries, paper, save), plot.host, values);
   }
 
   /**
-   * A plot over the path, built at the first call of `ensure`. `describe` returns its current content: {title, series:
-   * [{label, colour, dash, width}], rows, places, levels: [{value, label}], log, text(value), placeText(place),
-   * select(place)}.
+   * A plot over the path, built at the first call of `ensure`. `describe` returns its current content: {title, axis: name
+   * and unit of the values, series: [{label, colour, dash, width}], rows, places, levels: [{value, label}], log,
+   * text(value), placeText(place), lineOf(place), select(place)}.
    */
   function create(context, group, describe, className) {
     const plot = {context, group, describe, hidden: new Set(), graph: null, busy: false, printing: false};

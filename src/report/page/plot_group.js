@@ -30,6 +30,8 @@
       /** Shows values at path length `s` (mm) in all plots; null: in none. */
       hover(s, from) {
         for (const plot of group.plots) if (plot !== from) plot.showValues(s);
+        const run = runs[context.selection.run].curves ? context.selection.run : runs.findIndex((each) => each.curves);
+        if (context.program && run >= 0) context.program.point(run, s === null ? -1 : counterflex.data.stretchAt(runs[run].curves, s));
       },
       /** Draws marks again, once for all calls before the next frame. */
       redraw() {

@@ -1,6 +1,6 @@
 'use strict';
 /**
- * The path in space, coloured by deviation: `counterflex.scene.create(container, {runs, units, selection})`.
+ * The path in space, coloured by deviation: `counterflex.scene.create(container, {runs, units, selection, hovered})`.
  * It draws on demand, on one 2-D canvas: the path with WebGL if available, else flat, and the overlay of overlay.js.
  */
 (() => {
@@ -25,16 +25,16 @@
 
   /** The view of runs; at least one has a path. */
   class Scene {
-    constructor(container, {runs, units, selection}) {
-      Object.assign(this, {container, runs, units, selection, hover: -1, frame: 0, points: null});
+    constructor(container, {runs, units, selection, hovered}) {
+      Object.assign(this, {container, runs, units, selection, hovered, hover: -1, frame: 0, points: null, ownFactor: false});
       this.facts = picture.survey(runs);
       const run = picture.usable(runs[selection.run]) ? selection.run : runs.findIndex(picture.usable);
-      const kind = ['before', 'after', 'wanted'].find((each) => picture.knows(runs[run], each));
+      const kind = ['after', 'before', 'wanted'].find((each) => picture.knows(runs[run], each));
       this.camera = {...counterflex.camera.views.isometric, centre: [0, 0, 0], span: 1, fitted: true};
       this.controls = counterflex.sceneControls.create(this.choices(), this.acts());
       this.parts = furnish(container, this.controls.element);
       this.view = counterflex.ribbonView.create(() => this.fallBack()) || counterflex.flatView.create();
-      this.present(picture.describe(this.facts, runs, run, kind, this.facts.usual));
+      this.present(picture.describe(this.facts, runs, run, kind, this.facts.usual(kind)));
       this.listen();
       this.draw();
     }
@@ -43,7 +43,7 @@
       const anywhere = (kind) => this.runs.some((run) => picture.knows(run, kind));
       return {kinds: counterflex.pathModel.kinds.map((value) => ({value, enabled: anywhere(value)})),
         runs: this.runs.map((run) => ({text: picture.nameOf(run), enabled: picture.usable(run)})),
-        steps: this.facts.steps, usual: this.facts.usual};
+        steps: this.facts.steps};
     }
 
     /** Actions of controls, mouse and keys. */
@@ -52,6 +52,7 @@
         show: (kind) => this.show(kind, this.shown.run),
         run: (run) => this.show(this.shown.kind, run),
         exaggerate: (factor) => this.exaggerate(factor),
+        save: () => counterflex.chartFiles.saveCanvas(this.parts.canvas, picture.fileName(this.runs[this.shown.run], this.shown.kind)),
         look: (name) => this.move({...this.camera, ...counterflex.camera.views[name], fitted: true}),
         turn: (dx, dy) => this.move(counterflex.camera.turn(this.camera, -0.01 * dx, 0.01 * dy)),
         pan: (dx, dy) => this.move(counterflex.camera.pan(this.camera, this.size(), dx, dy)),
@@ -83,16 +84,23 @@
       this.schedule();
     }
 
-    /** Without that run or kind: the run as before, or the wanted path. Replaces a factor that would be absurd. */
+    /**
+     * Without that run or kind: the run as before, or the wanted path. Each kind has its usual factor, unless the user
+     * chose one that is not absurd.
+     */
     show(kind, index) {
       const run = picture.usable(this.runs[index]) ? index : this.shown.run;
       const known = picture.knows(this.runs[run], kind) ? kind : 'wanted';
-      const factor = counterflex.pathModel.bearable(this.shown.factor, this.facts.size, this.facts.most[known]);
+      const usual = this.facts.usual(known);
+      const own = counterflex.pathModel.bearable(this.shown.factor, this.facts.size, this.facts.most[known]);
+      const factor = known === 'wanted' || known === this.shown.kind ? this.shown.factor : this.ownFactor ? own : usual;
       this.present(picture.describe(this.facts, this.runs, run, known, factor));
     }
 
+    /** 0: the usual factor. */
     exaggerate(factor) {
-      this.present(picture.exaggerated(this.shown, factor > 0 ? factor : this.facts.usual));
+      this.ownFactor = factor > 0;
+      this.present(picture.exaggerated(this.shown, this.ownFactor ? factor : this.facts.usual(this.shown.kind)));
     }
 
     size() {
@@ -120,13 +128,14 @@
     }
 
     has(stretch) {
-      return Number.isInteger(stretch) && stretch >= 0 && stretch < this.shown.path.count;
+      return Number.isInteger(stretch) && stretch >= 0 && stretch < this.shown.path.last.length;
     }
 
     nearest(x, y, reach) {
       this.points = this.points || counterflex.pick.projected(this.shown.path, this.shown.factor,
         counterflex.camera.projector(this.camera, this.size()));
-      return counterflex.pick.nearest(this.points, this.shown.path.rapid, x, y, reach);
+      const point = counterflex.pick.nearest(this.points, this.shown.path.rapid, x, y, reach);
+      return point < 0 ? -1 : this.shown.path.stretch[point];
     }
 
     pick(x, y, reach) {
@@ -138,12 +147,13 @@
       const stretch = x < 0 ? -1 : this.nearest(x, y, 10);
       if (stretch === this.hover) return;
       this.hover = stretch;
+      this.hovered(this.shown.run, stretch);
       this.schedule();
     }
 
     step(count) {
       const from = this.chosen();
-      const to = from < 0 ? 0 : Math.min(this.shown.path.count - 1, Math.max(0, from + count));
+      const to = from < 0 ? 0 : Math.min(this.shown.path.last.length - 1, Math.max(0, from + count));
       this.selection.set(this.shown.run, to);
     }
 
@@ -221,7 +231,7 @@
 
     /** For paper: the whole path of each run, before and after, one below the other. */
     drawForPrint() {
-      const size = {width: 960, height: 480, ratio: 2};
+      const size = {width: 520, height: 270, ratio: 4};
       const chosen = this.chosen();
       const canvases = picture.printed(this.facts, this.runs, this.shown.factor).map((shown) => {
         const canvas = el('canvas', {class: 'scene-paper', 'data-run': shown.run, 'data-kind': shown.kind,
@@ -244,7 +254,8 @@
   }
 
   /**
-   * Builds the view inside `container`. `runs`: decoded runs; `units`: of units.js; `selection`: of selection.js.
+   * Builds the view inside `container`. `runs`: decoded runs; `units`: of units.js; `selection`: of selection.js;
+   * `hovered(run, stretch)`: called with the stretch under the mouse, -1 for none.
    * Drawn when it returns, if the container has a size.
    */
   function create(container, options) {

@@ -24,12 +24,12 @@
     steps.reduce((best, step, i) => (Math.abs(Math.log(step / factor)) < Math.abs(Math.log(steps[best] / factor))
       ? i : best), 0);
 
-  /** The slider of the exaggeration, on `steps`; a double click resets it to `usual`. */
-  function slider(steps, usual, chosen) {
+  /** The slider of the exaggeration, on `steps`; a double click chooses 0, the usual factor. */
+  function slider(steps, chosen) {
     const output = el('output', {class: 'scene-factor'});
     const input = el('input', {type: 'range', min: 0, max: steps.length - 1, step: 1, disabled: steps.length < 2,
       title: 'Double click: reset', input: () => chosen(steps[Number(input.value)]),
-      dblclick: () => chosen(usual)});
+      dblclick: () => chosen(0)});
     return {element: el('label', {class: 'scene-slider'}, 'Exaggeration ', input, output), set(factor) {
       input.value = nearestStep(steps, factor);
       output.textContent = `\u00d7 ${factor}`;
@@ -44,20 +44,33 @@
       el('button', {type: 'button', value: name, click: () => look(name)}, text)));
   }
 
+  /** Switches between the deviation before and the same without its common shift. */
+  function shiftSwitch(show) {
+    const input = el('input', {type: 'checkbox', change: () => show(input.checked ? 'shifted' : 'before')});
+    const title = 'Touching off the part on this machine removes the shift that all deviations have in common.';
+    return {element: el('label', {class: 'choice', title}, input, el('span', null, 'without the common shift')), set(kind) {
+      input.checked = kind === 'shifted';
+      input.disabled = kind !== 'shifted' && kind !== 'before';
+    }};
+  }
+
   const kindTexts = {wanted: 'wanted', before: 'before', after: 'after (model residual)'};
 
   /**
-   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps, usual}, `act` = {show(kind),
-   * run(index), exaggerate(factor), look(view)}. Returns {element, update({kind, run, factor})}.
+   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps}, `act` = {show(kind),
+   * run(index), exaggerate(factor), look(view), save()}. Returns {element, update({kind, run, factor})}.
    */
   function create(options, act) {
     const kinds = radios('Path', options.kinds.map((kind) => ({...kind, text: kindTexts[kind.value]})), act.show);
     const runs = options.runs.length < 2 ? null : radios('Run',
       options.runs.map((run, i) => ({...run, value: String(i)})), (value) => act.run(Number(value)));
-    const factor = slider(options.steps, options.usual, act.exaggerate);
-    const parts = [kinds.element, ...(runs ? [runs.element] : []), factor.element, viewButtons(act.look)];
+    const factor = slider(options.steps, act.exaggerate);
+    const shift = shiftSwitch(act.show);
+    const save = el('button', {type: 'button', click: act.save}, 'PNG');
+    const parts = [kinds.element, shift.element, ...(runs ? [runs.element] : []), factor.element, viewButtons(act.look), save];
     return {element: el('div', {class: 'scene-controls'}, parts), update(state) {
-      kinds.set(state.kind);
+      kinds.set(state.kind === 'shifted' ? 'before' : state.kind);
+      shift.set(state.kind);
       if (runs) runs.set(state.run);
       factor.set(state.factor);
     }};

@@ -1,30 +1,46 @@
 'use strict';
 /**
  * One picture of the path view: the path, its layers, its words, and drawing them on a canvas. `shown` is {curves,
- * letter, tolerance_mm, kind, run, factor, path, box}: the content, independent of the camera.
+ * letter, tolerance_mm, kind, run, factor, path, range, shift, box}: the content, independent of the camera.
  */
 (() => {
   const titles = {wanted: () => 'Wanted path', before: (unit) => `Deviation before, ${unit}`,
+    shifted: (unit) => `Before, without the common shift, ${unit}`,
     after: (unit) => `Model residual after, ${unit}`};
+
+  const kindOfData = (kind) => (kind === 'shifted' ? 'before' : kind);
 
   const usable = (run) => Boolean(run && run.curves) && run.curves.place_mm.length > 0;
 
   /** "A: before calibration", or its known part. */
   const nameOf = ({letter, name}) => [...new Set([letter, name])].filter(Boolean).join(': ');
 
-  /** Whether a run has a path of that kind. */
-  const knows = (run, kind) => usable(run) && counterflex.pathModel.has(run.curves, kind);
+  /** The name of a file with a picture. */
+  const fileName = (run, kind) => counterflex.chartFiles.nameOf(run, `path_${kind}`);
 
-  /** Shared by all pictures: the common origin and size of the runs, and the largest deviations of all runs. */
+  /** Whether a run has a path of that kind. */
+  const knows = (run, kind) => usable(run) && counterflex.pathModel.has(run.curves, kindOfData(kind));
+
+  /** The shift of a run that touching off the part removes: of its datum, if the report has one, else the mean. */
+  function shiftOf({report, curves}) {
+    const {offsets = []} = (report.summary && report.summary.common_shift) || {};
+    return offsets.length === 1 ? offsets[0].shift_mm : counterflex.pathModel.meanOf(curves, 'before');
+  }
+
+  /** Shared by all pictures: the common origin and size of the runs, and the ranges of their deviations, mm. */
   function survey(runs) {
-    const all = runs.filter(usable).map((run) => run.curves);
-    const box = counterflex.pathModel.bounds(all);
-    const most = {wanted: 0, before: counterflex.pathModel.largest(all, 'before'),
-      after: counterflex.pathModel.largest(all, 'after')};
-    const size = counterflex.pathModel.sizeOf(box);
-    return {most, size, origin: box.low.map((v, i) => (v + box.high[i]) / 2),
-      usual: counterflex.pathModel.exaggeration(size, most.before || most.after),
-      steps: counterflex.pathModel.exaggerations(size, [most.before, most.after])};
+    const {pathModel} = counterflex;
+    const present = runs.filter(usable);
+    const all = present.map((run) => run.curves);
+    const box = pathModel.bounds(all);
+    const range = (kind) => pathModel.rangeOf(all.map((curves) => pathModel.valued(curves, kind)));
+    const ranges = {wanted: {low: 0, high: 0}, before: range('before'), after: range('after'),
+      shifted: pathModel.rangeOf(present.map((run) => pathModel.valued(run.curves, 'before', shiftOf(run))))};
+    const most = Object.fromEntries(Object.entries(ranges).map(([kind, {high}]) => [kind, high]));
+    const size = pathModel.sizeOf(box);
+    return {most, ranges, size, origin: box.low.map((v, i) => (v + box.high[i]) / 2),
+      usual: (kind) => pathModel.exaggeration(size, most[kind]),
+      steps: pathModel.exaggerations(size, Object.values(most))};
   }
 
   /**
@@ -43,12 +59,14 @@
   /** The title of a picture, with the letter of the run if there are two. */
   const titleOf = ({kind, letter}, unit) => (letter ? `${letter}: ` : '') + titles[kind](unit);
 
-  /** `shown` for a run's path of a kind, exaggerated by `factor`. */
+  /** `shown` for a run's path of a kind, exaggerated by `factor`; 'shifted': before, without the common shift. */
   function describe(facts, runs, run, kind, factor) {
     const {curves, report, letter} = runs[run];
-    const path = counterflex.pathModel.build(curves, kind, facts.origin, facts.most[kind]);
+    const shift = kind === 'shifted' ? shiftOf(runs[run]) : undefined;
+    const range = facts.ranges[kind];
+    const path = counterflex.pathModel.build(curves, kindOfData(kind), facts.origin, range, shift);
     const tolerance_mm = Number((report.options || {})['tolerance-mm']);
-    return exaggerated({curves, letter, tolerance_mm, kind, run, path, most_mm: facts.most[kind]}, factor);
+    return exaggerated({curves, letter, tolerance_mm, kind, run, path, range, shift}, factor);
   }
 
   const exaggerated = (shown, factor) =>
@@ -73,18 +91,18 @@
    * "line 12: 4.1 µm" for a stretch: "up to" if it has several waypoints, "about" if the deviation is interpolated from
    * its neighbours; only the line if it is unknown or not shown.
    */
-  function words({curves, kind, path, most_mm}, i, units) {
+  function words({curves, kind, path}, i, units) {
     const [first, last] = [curves.first_line[i], curves.last_line[i]];
     const lines = first === last ? `line ${first}` : `lines ${first} to ${last}`;
-    if (kind === 'wanted' || path.fraction[i] < 0) return lines;
-    const value = curves.quantities[`${kind}_mm`].largest[i];
-    if (!Number.isFinite(value)) return `${lines}: about ${units.format(path.fraction[i] * most_mm)}`;
+    const point = path.last[i];
+    if (kind === 'wanted' || path.fraction[point] < 0) return lines;
+    const isKnown = Number.isFinite(curves.quantities[`${kindOfData(kind)}_mm`].largest[i]);
     const single = first === last && !(curves.waypoints_per_stretch > 1);
-    return `${lines}: ${single ? '' : 'up to '}${units.format(value)}`;
+    return `${lines}: ${!isKnown ? 'about ' : single ? '' : 'up to '}${units.format(path.value[point])}`;
   }
 
   /** The drawn place of a stretch: [x, y, z], mm from the origin. */
-  const placeOf = ({path, factor}, stretch) => counterflex.pathModel.drawnAt(path, stretch, factor);
+  const placeOf = ({path, factor}, stretch) => counterflex.pathModel.drawnAt(path, path.last[stretch], factor);
 
   /** The radius around `centre` that includes the box. */
   const reachOf = (centre, {low, high}) =>
@@ -96,10 +114,11 @@
   }
 
   /** The notes of the picture, the lowest line first. */
-  function notes({kind, factor, path}) {
+  function notes({kind, factor, path, shift}, units) {
     const rapids = path.rapid.some((rapid, i) => rapid && i > 0) ? ['dashed: rapids'] : [];
     return kind === 'wanted' ? rapids
-      : [`deviation \u00d7 ${factor}`, ['thin: wanted path', ...rapids].join(', ')];
+      : [`deviation \u00d7 ${factor}`, ['thin: wanted path', ...rapids].join(', '),
+        ...(shift ? [`common shift x, y, z: ${shift.map(units.number).join(', ')} ${units.label}`] : [])];
   }
 
   /**
@@ -114,9 +133,9 @@
     view.draw(context, size, {theme, camera, layers: layers(shown, theme), reach: reachOf(camera.centre, shown.box)});
     counterflex.overlay.draw(context, size, {theme, camera, units,
       marks: marked.map((each) => mark(each, shown, project, units)),
-      bar: {title: titleOf(shown, units.label), most_mm: shown.most_mm, tolerance_mm: shown.tolerance_mm},
-      notes: notes(shown)});
+      bar: {title: titleOf(shown, units.label), range: shown.range, tolerance_mm: shown.tolerance_mm},
+      notes: notes(shown, units)});
   }
 
-  counterflex.scenePicture = {usable, nameOf, knows, survey, describe, printed, titleOf, exaggerated, words, placeOf, paint};
+  counterflex.scenePicture = {usable, nameOf, fileName, knows, survey, describe, printed, titleOf, exaggerated, words, placeOf, paint};
 })();

@@ -1,7 +1,7 @@
 'use strict';
 (() => {
   const {el, jump} = counterflex.dom;
-  const {percent} = counterflex.units;
+  const {percent, fixed} = counterflex.units;
   const words = counterflex.words;
 
   /** An important number with its name and place. `mark` is 'warn' for numbers that need attention. */
@@ -132,13 +132,35 @@
     if (options.method) bits.push(`method ${options.method}`);
     if (tolerance(report) < Infinity && report.command !== 'predict')
       bits.push(`tolerance ${units.format(tolerance(report))}`);
-    if (report.output) bits.push(`written to ${report.output.split('/').pop()}`);
     return bits.join(', ');
   }
 
+  /** A band with the verdict in a word, and a sentence. */
   function verdictOf(run, units) {
     const {text, kind} = words.verdict(run.report, units);
-    return el('p', {class: `verdict ${kind}`, role: kind === 'bad' ? 'alert' : null}, text);
+    const [word, rest] = words.verdictWord(run.report, text);
+    return el('p', {class: `verdict ${kind}`, role: kind === 'bad' ? 'alert' : null},
+        word ? [el('b', {class: 'word'}, word), ' '] : null, el('span', null, rest));
+  }
+
+  /** The file that the machine runs, with its folders. */
+  function writtenTo({report, source}) {
+    if (!report.output) return null;
+    return el('p', {class: 'subtitle'}, 'Written to ', el('code', null, (source && source.output) || report.output));
+  }
+
+  function forceSentence({forces, failure}) {
+    const {without_force: without, largest_N: largest} = forces;
+    if (failure && !(largest > 0)) return '';
+    const size = largest > 0 ? `Cutting force: up to ${fixed(largest, 0)} N.` : 'No cutting force acts.';
+    return largest > 0 && without.moves > 0 ? `${size} ${words.counted(without.moves, 'feed move')} without a force.` : size;
+  }
+
+  /** What the numbers rest on: place and datum of the part, force, tools, weights. */
+  function assumptionList({report}) {
+    const {work, datum, tools, gravity} = report.assumptions || {};
+    const list = [work, datum, forceSentence(report), tools, gravity].filter(Boolean);
+    return el('div', {class: 'assumptions'}, el('h3', null, 'Assumed'), el('ul', null, list.map((text) => el('li', null, text))));
   }
 
   function headingOf(run) {
@@ -151,11 +173,12 @@
     const run = context.runs[index];
     const {units} = context;
     const line = el('p', {class: 'subtitle'}, subtitle(run.report, units));
-    return el('div', {class: 'run'}, headingOf(run), line, verdictOf(run, units),
-        el('dl', {class: 'cards'}, cards(context, index)), reminderList(run.report, units));
+    return el('div', {class: 'run'}, headingOf(run), line, verdictOf(run, units), writtenTo(run),
+        el('div', {class: 'before-you-run'}, assumptionList(run), reminderList(run.report, units)),
+        el('dl', {class: 'cards'}, cards(context, index)));
   }
 
-  /** Title, verdict, cards and points to check: of one run, or of two side by side below their conclusion. */
+  /** Title, verdict, assumptions, points to check and cards: of one run, or of two side by side below their conclusion. */
   function render(context) {
     const {runs, conclusion} = context;
     if (runs.length === 1) return runSummary(context, 0);

@@ -83,6 +83,9 @@
           corrected ? 'After: model residual, the deviation that the model leaves. It is not the accuracy of the part.' : '')];
   }
 
+  /** One line; the title has all of a long comment. */
+  const nameCell = (operation, link) => Object.assign(link, {title: nameOf(operation), className: 'clamp'});
+
   const nameOf = (operation) => operation.operation || (operation.tool > 0 ? '(no name)' : '(the whole program)');
 
   /** The runs' operations aligned by tool and name: [{operation, of: [operation or undefined, ...]}]. */
@@ -103,7 +106,7 @@
     const {runs, units} = context;
     const run = of.findIndex(Boolean);
     const go = () => context.goToOperation(run, runs[run].report.operations.indexOf(of[run]));
-    const name = jump(nameOf(operation), 'curves', go, `${nameOf(operation)}: show it in the curves`);
+    const name = nameCell(operation, jump(nameOf(operation), 'curves', go, `${nameOf(operation)}: show it in the curves`));
     const largest = (key) => across(runs.map((_, r) => value(of[r] && of[r][key], 'max_mm')), 'max_mm', units);
     const shares = runs.map((_, r) => (of[r] ? percent(of[r].corrected_percent) : unknown)).join(' / ');
     const lines = `${operation.first_line}\u2013${operation.last_line}`;

@@ -20,11 +20,16 @@
     return button;
   }
 
-  /** Links to the visible sections. */
+  const linksInSight = 5;
+
+  /** Links to the visible sections: the first ones, and the others behind "More". */
   function contents(node) {
     const sections = [...document.querySelectorAll('main section')].filter((section) => !section.hidden);
-    fill(node, el('ul', null, sections.map((section) => el('li', null,
-        el('a', {href: `#${section.id}`}, section.dataset.short)))));
+    const links = sections.map((section) => el('li', null, el('a', {href: `#${section.id}`}, section.dataset.short)));
+    const more = el('details', {class: 'more'}, el('summary', null, 'More'), el('ul', null, links.slice(linksInSight)));
+    more.addEventListener('click', (event) => event.target.closest('a') && more.removeAttribute('open'));
+    document.addEventListener('click', (event) => !more.contains(event.target) && more.removeAttribute('open'));
+    fill(node, el('ul', null, links.slice(0, linksInSight), links.length > linksInSight ? el('li', null, more) : null));
   }
 
   function render(node, units) {

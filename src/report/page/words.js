@@ -91,6 +91,12 @@
     return {text: `${line}. ${text}${end}`, kind: report.verdict === 'OK' ? kind : kinds[report.verdict]};
   }
 
+  /** The first word of a verdict, and the text behind it: ['OK', 'Off by ...']. */
+  function verdictWord({verdict: word}, text) {
+    if (!word || !text.startsWith(word)) return ['', text];
+    return [word, text.slice(word.length).replace(/^[.:]?\s*/, '')];
+  }
+
   function sentence(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
@@ -109,6 +115,8 @@
     preloads_mm: 'Preloads',
     discrepancy_mm: 'Discrepancy',
   };
+  const partName = (key) => partNames[key];
+
   const partSentences = {
     geometry_mm: 'mostly errors of assembly',
     load_mm: 'mostly the cutting force bends the machine',
@@ -144,5 +152,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, inLine, factor, title, verdict, otherMoves, nothingSolved, parts, cause, causeInShort, toolName};
+  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName};
 })();
