@@ -21,7 +21,7 @@ inline constexpr double residual_tolerance = 1e-9;
 /// Of a step that need not be taken, by the contraction that was seen or measured.
 inline constexpr double predicted_tolerance = 1e-12;
 /// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from
-/// different starts agree to 1e-11 (tests/statics/kernel_test.cpp); where tangents leave out hanging weights,
+/// different starts agree to 1e-11 (tests/statics/kernel/kernel_test.cpp); where tangents leave out hanging weights,
 /// 9e-11 were seen.
 inline constexpr double small_chord = 1e-9;
 /// Per step of nominal kinematics: a linearisation that does not reach it is made again. 0.01: pass; 0.5: the
@@ -91,7 +91,7 @@ inline constexpr double turn_of_samples = 0.01;  ///< rad. 0.025: pass, with the
 inline constexpr double force_of_samples = 100;
 /// Lines are bounded under loads of 250 N, up to 1.25 half edges from the centre, so that their ends may lie
 /// beyond the cell that holds their middle. What polynomials miss under loads in other directions is within
-/// twice what is measured (tests/statics/batch_lines_test.cpp).
+/// twice what is measured (tests/statics/solve/batch_lines_test.cpp).
 inline constexpr double load_of_lines = 250, reach_of_lines = 1.25, remainder_margin = 2;
 /// Of a term at the rim of its cell (m; angles times l). Steps of a waypoint of the bench's hexapod: 1.1;
 /// with 1e-7 1.2, with 5e-7 1.9 (a sixth slower). Other machines take as many steps with all three; none

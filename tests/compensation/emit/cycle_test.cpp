@@ -1,0 +1,81 @@
+// Holes: each has the correction of its own bottom.
+#include "compensation/support/gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const char* const holes =
+    "G21 G90 G17\nG0 X0. Y0. Z20.\nG99 G81 X10. Y100. Z-12. R2. F100\nX20. Y-100.\nY50.\nG80\nG0 Z20.\nM30\n";
+
+}  // namespace
+
+TEST_CASE("each hole is shifted by the correction at its bottom, and its words follow") {
+  const double angle = 1e-3;
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, 0, 0.1", angle), .text = holes}));
+  const std::vector<Move> before = moves_in(holes), after = moves_in(result.text);
+  REQUIRE(before.size() == after.size());
+  int count = 0;
+  for (std::size_t m = 0; m < before.size(); ++m) {
+    if (!before[m].cycle) continue;
+    CAPTURE(before[m].line);
+    REQUIRE(after[m].cycle);
+    const Vector3& p = before[m].end_mm;
+    const double y = p.y() / std::cos(angle);
+    CHECK(std::abs(after[m].end_mm.x() - p.x() - y * std::sin(angle)) <= 0.5e-3 + 1e-9);
+    CHECK(std::abs(after[m].end_mm.y() - y) <= 0.5e-3 + 1e-9);
+    CHECK(std::abs(after[m].cycle->bottom_mm + 12.1) < 1e-9);
+    CHECK(std::abs(after[m].cycle->retract_mm - 1.9) < 1e-9);
+    ++count;
+  }
+  CHECK(count == 3);
+  CHECK(result.text.find("Z-12.1") == result.text.rfind("Z-12.1"));  // the bottom is sticky
+}
+
+TEST_CASE("a hole whose bottom misses is found by the verification: holes are judged at their bottom") {
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = holes}));
+  int judged = 0;
+  for (const Waypoint& w : result.waypoints) judged += w.segment == no_segment && w.p_MT.z() < 0;
+  CHECK(judged == 3);
+}
+
+TEST_CASE("holes of a relative cycle keep the correction with which the cycle is entered") {
+  const std::string text =
+      "G21 G90\nG0 X0. Y0. Z20.\nG91 G99 G81 X10. Z-12. R-15. F100 L3\nG80\nG90\nG0 Z20.\nX0. Y0.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = text}));
+  CHECK(lines_of(result.text)[2] == lines_of(text)[2]);
+  CHECK((moves_in(result.text).back().end_mm - shift_mm - Vector3(0, 0, 20)).norm() < 1e-9);
+}
+
+// The tool is 50 mm above the surface when the cycle is called: there the correction of this machine is 0.05
+// mm in X.
+TEST_CASE(
+    "klartext: a hole that CYCL CALL or M89 drills is corrected at its surface, not at the clearance "
+    "height") {
+  const std::string text =
+      "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nCYCL DEF 200 DRILLING ~\nQ200=2 ~\nQ201=-10 ~\nQ203=+0 "
+      "~\nQ204=50\n"
+      "L X+10 Y+10 Z+50 R0 FMAX\nCYCL CALL\nL X+20 R0 FMAX\nCYCL CALL\nL X+30 R0 FMAX M89\nL X+35 R0 FMAX\n"
+      "L X+40 R0 FMAX M99\nL Z+100 R0 FMAX M30\nEND PGM A MM\n";
+  const double lean = 1e-3;
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, 0, 0", 0, lean), .text = text}));
+  CAPTURE(result.text);
+  std::size_t holes = 0;
+  for (const Move& move : moves_in(result.text)) {
+    if (!move.makes_hole) {
+      CHECK(std::abs(move.end_mm.x() - std::round(move.end_mm.x())) <= 0.1 + 1e-9);
+      continue;
+    }
+    ++holes;
+    CAPTURE(move.line);
+    CHECK(std::abs(move.end_mm.x() - std::round(move.end_mm.x())) <= 1e-9);
+    CHECK(move.end_mm.z() == 0);
+  }
+  CHECK(holes == 5);
+  CHECK(result.text.find("L X+9.95 Y+10 Z+50") != std::string::npos);
+}
+
+TEST_CASE("a perfect machine gives back programs with cycles byte for byte") {
+  CHECK(compensated(Shop({.machine = perfect_gantry(), .text = holes})).text == holes);
+}

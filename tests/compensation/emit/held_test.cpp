@@ -1,0 +1,83 @@
+// Blocks that are not corrected one by one: what cannot hold a correction refuses it.
+#include "compensation/support/gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+std::optional<Failure> failure_on(const Machine& machine, const std::string& text) {
+  return Shop({.machine = machine, .text = text}).run().failure;
+}
+
+}  // namespace
+
+TEST_CASE("an axis that an expression sets refuses a correction, and passes without one") {
+  const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG1 Z0. F300\nX#1\nX30.\nG0 Z20.\nM30\n";
+  CHECK(!failure_on(perfect_gantry(), text));
+  CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);
+  const auto failure = failure_on(displaced_gantry(), text);
+  REQUIRE(failure);
+  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->line == 5);
+  CHECK(failure->what.find("-0.5000 mm") != std::string::npos);
+}
+
+TEST_CASE("what puts positions elsewhere refuses a correction that holds, and passes without one") {
+  const std::string begin = "G21 G90\nG0 X0. Y0. Z5.\nG1 X5. F300\n", end = "X10.\nM30\n";
+  for (const char* elsewhere : {"A90.\n", "G52 X#1\n", "G92 X#1\n", "G10 L2 P1 X#1\n", "M428\n",
+                                "o1 if [#1 GT 2]\nX7.\no1 endif\n"}) {
+    CAPTURE(elsewhere);
+    const std::string text = begin + elsewhere + end;
+    CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);
+    const auto failure = failure_on(displaced_gantry(), text);
+    REQUIRE(failure);
+    CHECK(failure->line == 5);
+    CHECK(failure->exit == Exit::program_text);
+    // Behind a machine position nothing holds that could be lost.
+    CHECK_FALSE(failure_on(displaced_gantry(), begin + "G53 X0 Y0 Z0\n" + elsewhere + end));
+  }
+}
+
+TEST_CASE("an expression on one axis lets the others keep their shift") {
+  // Displaced in Y alone: X takes no correction.
+  const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nX#1 Y10.\nX30. Y20.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = rigid_gantry("0, -0.25, 0"), .text = text}));
+  const auto lines = lines_of(result.text);
+  CHECK(lines[3] == "X#1 Y10.25");
+  CHECK(lines[4] == "X30. Y20.25");
+}
+
+TEST_CASE("a relative expression carries the shift along, and an absolute one after it is refused") {
+  const std::string carried = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG91 X#1\nG90 Y10.\nX30. Y20.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = carried}));
+  const auto lines = lines_of(result.text);
+  CHECK(lines[3] == "G91 X#1");
+  CHECK(lines[4] == "G90 Y10.25");
+  CHECK(lines[5] == "X29.5 Y20.25");
+  const auto failure =
+      failure_on(displaced_gantry(), "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG91 X#1\nG90 X#1\nX30. Y20.\nM30\n");
+  REQUIRE(failure);
+  CHECK(failure->line == 5);
+}
+
+TEST_CASE("a call of a subprogram refuses a correction that holds") {
+  const std::string text =
+      "G21 G90\no100 sub\nG0 X50.\no100 endsub\nG0 X0. Y0. Z5.\no100 call\nG0 X1. Y2. Z3.\nM30\n";
+  CHECK(!failure_on(perfect_gantry(), text));
+  const auto failure = failure_on(displaced_gantry(), text);
+  REQUIRE(failure);
+  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->line == 6);
+}
+
+TEST_CASE("after a machine position an axis holds nothing that an expression could break") {
+  const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG53 G0 Z0.\nZ#1\nM30\n";
+  CHECK(!failure_on(displaced_gantry(), text));
+}
+
+TEST_CASE("a thread under G33 keeps the correction with which it is entered") {
+  const std::string text = "G21 G90\nG0 X0. Y50. Z5.\nG33 Z-20. K1.5\nG0 Z5.\nM30\n";
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = text}));
+  CHECK(lines_of(result.text)[2] == "G33 Z-20.125 K1.5");
+}

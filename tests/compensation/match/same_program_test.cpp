@@ -1,0 +1,129 @@
+// What verify refuses besides deviations: moves that no check would judge, and other text that differs.
+#include <fmt/format.h>
+
+#include <utility>
+
+#include "compensation/support/gantry.hpp"
+#include "compensation/support/shop.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string spindle_stop = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\nM30\n";
+
+/// The exit, line and words with which `changed` is refused as the corrected form of `spindle_stop`.
+std::string refusal(const std::string& changed) {
+  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = spindle_stop});
+  const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
+  if (!failure) return "";
+  CHECK(failure->exit == Exit::not_compensated);
+  return fmt::format("{}, original {}: {}", failure->corrected_line, failure->line, failure->what);
+}
+
+std::string replaced(const std::string& what, const std::string& by) {
+  std::string changed = spindle_stop;
+  return changed.replace(changed.find(what), what.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("a program is its own corrected form where nothing has to be corrected") {
+  CHECK(refusal(spindle_stop).empty());
+  CHECK(refusal("(COUNTERFLEX 1 VERSION 0.1.0)\n" + spindle_stop).empty());
+}
+
+TEST_CASE("moves that leave the path and come back are refused") {
+  CHECK_FALSE(refusal(replaced("X10\n", "X10\nX10 Y50\nX10 Y0\n")).empty());
+  CHECK_FALSE(refusal(replaced("X10\n", "X5 Y20\nX5 Y0\nX10\n")).empty());
+  CHECK_FALSE(refusal(replaced("X10\n", "X5\nX4 Y0.5\nX10\n")).empty());
+}
+
+TEST_CASE("a line that holds no move has to stay as it is") {
+  const std::string differs =
+      "this line differs from that of the original; it is not a move and must not change";
+  CHECK(refusal(replaced("G54", "G55")) == "1, original 1: " + differs);
+  CHECK(refusal(replaced("M5\n", "")) == "5, original 5: " + differs);
+  CHECK(refusal(replaced("M30\n", "M30\nM3\n")) == "7, original 0: the original has no such line");
+  CHECK(refusal(replaced("M30\n", "")) ==
+        "0, original 6: this line of the original is missing at the end of the corrected program");
+}
+
+TEST_CASE("words of a move that correction never changes have to stay") {
+  CHECK(
+      refusal(replaced("F100", "F1000")) ==
+      "3, original 3: the moves from here on do not end where that of the original does, with the same words "
+      "(motion, F, S, M)");
+}
+
+TEST_CASE("the N of a block belongs to its first piece") {
+  const auto program = [](const std::string& first, const std::string& second) {
+    return fmt::format("G21 G90 G54\nG0 X0 Y0 Z5\n{}\n{}\nG0 Z5\nM30\n", first, second);
+  };
+  const std::string down = "N30 G1 Z0 F100";
+  const std::string wrong =
+      "the N of a block belongs to its first piece, and other pieces of a block without N have none";
+  const auto refused = [&](const std::string& original, const std::string& changed) {
+    const Shop shop({.machine = load_machine(orthoglide_perfect), .text = original});
+    const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
+    return failure ? fmt::format("{}: {}", failure->corrected_line, failure->what) : "";
+  };
+  const std::string numbered = program(down, "N40 X10"), plain = program(down, "X10");
+  CHECK(refused(numbered, program(down, "N40 X5\nX10")).empty());
+  CHECK(refused(numbered, program(down, "N40 X5\nN41 X10")).empty());
+  CHECK(refused(numbered, program(down, "X5\nN40 X10")) == "4: " + wrong);
+  CHECK(refused(numbered, program(down, "X10")) == "4: " + wrong);
+  CHECK(refused(numbered, program("N31 G1 Z0 F100", "N40 X10")) == "3: " + wrong);
+  CHECK(refused(plain, program(down, "X5\nX10")).empty());
+  CHECK(refused(plain, program(down, "X5\nN41 X10")) == "5: " + wrong);
+}
+
+TEST_CASE("numbers of a split Klartext program are those of its own order") {
+  const Shop shop(
+      {.machine = load_machine(small_mill),
+       .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 F500\n4 L "
+               "Y+250\n5 L X+0\n6 END PGM A MM\n",
+       .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
+  const Compensation result = compensated(shop);
+  REQUIRE(result.counts.inserted_blocks > 0);
+  const auto failure = verify(shop.job(), read_program(result.text, "c.h", {}), false).failure;
+  CHECK(!failure);
+}
+
+TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowhere else") {
+  // Without Q204 the holes are held.
+  const auto program = [](const char* z, const char* surface, const char* clearance = "") {
+    return fmt::format(
+        "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z{} R0 FMAX\n3 CYCL DEF 200 Q200=2 Q201=-5 "
+        "Q203={}{}\n"
+        "4 L X+10 Y+5 FMAX M99\n5 L X+20 FMAX M99\n6 END PGM A MM\n",
+        z, surface, clearance);
+  };
+  const Shop shop({.machine = rigid_gantry("0, 0, 0.01"), .text = program("+10", "+0")});
+  const auto refused = [&](const std::string& changed) {
+    const auto failure = verify(shop.job(), read_program(changed, "changed.h", {}), false).failure;
+    return failure ? failure->what : "";
+  };
+  CHECK(refused(program("+9.990", "-0.010")).empty());
+  CHECK(refused(program("+9.990", "-0.110")).find("surface of this hole's cycle") != std::string::npos);
+  CHECK(refused(program("+9.990", "+0")).find("surface of this hole's cycle") != std::string::npos);
+}
+
+TEST_CASE(
+    "a Klartext cycle that is defined again before a hole is accepted only where nothing else changes by "
+    "it") {
+  const auto program = [](const char* between, const char* again) {
+    const std::string definition = "CYCL DEF 200 Q200=2 Q201=-5 Q203=+0 Q204=10\n";
+    return "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX\n" + definition +
+           "L X+10 Y+5 FMAX M99\n" + between + (*again ? definition : "") + "L X+20 FMAX M99\nEND PGM A MM\n";
+  };
+  const auto refused = [&](const char* between) {
+    const Shop shop({.machine = rigid_gantry("0, 0, 0"), .text = program(between, "")});
+    return verify(shop.job(), read_program(program(between, "again"), "changed.h", {}), false)
+        .failure.has_value();
+  };
+  CHECK_FALSE(refused(""));
+  CHECK_FALSE(refused("; the next\n"));
+  CHECK(refused("Q201 = -20\n"));
+}

@@ -1,0 +1,125 @@
+// Steps of the force that act as steps, and blocks that must stay whole.
+#include <fmt/format.h>
+
+#include "compensation/support/judge.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const char* const two_cuts = "G21 G90\nG0 X0. Y0. Z0.\nG1 X2. F100\nX4.\nG0 Z20.\nG0 X0.\nM30\n";
+
+std::size_t jumps_of(const Shop& shop, const Compensation& result) {
+  std::size_t inserted = 0;
+  for (const Commanded& piece : commanded(shop, result)) inserted += piece.u1 < 1;
+  return result.counts.inserted_blocks - inserted;
+}
+
+}  // namespace
+
+TEST_CASE("without a blend an extra feed move performs the jump into a cut and out of it") {
+  const Shop shop(
+      {.machine = load_machine(orthoglide_b), .text = two_cuts, .force = constant_force(milling(), 0)});
+  const Compensation result = compensated(shop);
+  CHECK(jumps_of(shop, result) == 2);
+  const std::vector<std::string> lines = lines_of(result.text);
+  CHECK(lines[2].starts_with("G1 X"));
+  CHECK(lines[2].ends_with(" F100"));
+  CHECK(lines[3].starts_with("G1 X"));
+  CHECK(lines[5].starts_with("G1 X"));
+  CHECK(lines[6].starts_with("G0 Z"));
+  CHECK(dense_miss(shop, result, 20).size <= 5e-6);
+  // Both ends of a jump hold the tip on the path: before it without force, after it under force.
+  const auto moves = read_program(result.text, "c", {}).moves;
+  CHECK((cold_tip(shop, moves[1].start_mm * mm, Vector6::Zero())).norm() < 1e-6);
+  CHECK((cold_tip(shop, moves[1].end_mm * mm, milling())).norm() < 1.5e-6);
+}
+
+TEST_CASE("a modal rapid after a jump has a G0 of its own") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X2. F100\nG0 Z20.\nX0.\nG1 Z10.\nG0\nZ30.\nM30\n",
+                   .force = constant_force(milling(), 0)});
+  const Compensation result = compensated(shop);
+  CHECK(jumps_of(shop, result) == 4);
+  const auto before = shop.program.moves, after = read_program(result.text, "c", {}).moves;
+  CHECK(after.back().motion == Motion::rapid);
+  CHECK(after[after.size() - 2].motion == Motion::feed);
+}
+
+TEST_CASE("a step of the force inside a segment is performed where it is") {
+  for (const double step : {40.0, 2.0, 1.0, 0.5, 0.3, 0.2, 0.1}) {
+    CAPTURE(step);
+    const std::string rows = fmt::format("0, 100, 0, 0\n50, {}, 0, 0\n", 100 + step);
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y60. F600\nM30\n",
+                     .force = step_profile(rows, 0)});
+    const Compensation result = compensated(shop);
+    const Miss miss = dense_miss(shop, result, 40);
+    CAPTURE(miss.u);
+    CHECK(miss.size <= 5e-6);
+  }
+}
+
+TEST_CASE("small jumps that rounding swallows do not shift what the text is held to") {
+  for (int i = 0; i < 12; ++i) {
+    const double step = 0.1 + 0.05 * i;
+    CAPTURE(step);
+    const std::string rows = fmt::format("0, 100, 0, 0\n31.7, {}, 0, 0\n70.1, 100, 0, 0\n", 100 + step);
+    Order order{.machine = load_machine(orthoglide_b),
+                .text = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y-30. Z-40. F600\nG1 Y60.\nM30\n",
+                .force = step_profile(rows, 0)};
+    order.tolerance = 2e-6;
+    const Shop shop(order);
+    CHECK(dense_miss(shop, compensated(shop), 10).size <= 2e-6);
+  }
+}
+
+TEST_CASE("a ramp from one force to another is followed within the tolerance") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X-60. Y-60. Z-60.\nG1 Y60. F600\nM30\n",
+                   .force = step_profile("0, 100, 0, 0\n50, 300, -50, 20\n90, 0, 0, 0\n", 2e-3)});
+  CHECK(dense_miss(shop, compensated(shop), 60).size <= 5e-6);
+}
+
+TEST_CASE("under exact stop a move is not split: its ends are corrected, and it is listed") {
+  for (const double blend : {0.0, 2e-3}) {
+    CAPTURE(blend);
+    const Shop shop(
+        {.machine = load_machine(orthoglide_b),
+         .text = "G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG61.1\nG1 Y126.35 F600\nG64\nG1 Y-70.\nM30\n",
+         .force = constant_force(milling(), blend)});
+    const Compensation result = compensated(shop);
+    CHECK(pieces_on(result, 4) == 1);
+    CHECK(pieces_on(result, 6) > 1);
+    REQUIRE(result.left_alone.size() == 1);
+    CHECK(result.left_alone[0].line == 4);
+    CHECK(result.left_alone[0].why.find("not split") != std::string::npos);
+    for (const Commanded& piece : commanded(shop, result)) {
+      const Segment& segment = shop.path.segments[piece.segment];
+      if (segment.line != 4) continue;
+      const Vector6 F = shop.forces->at(piece.segment, 1, Side::before);
+      CHECK((cold_tip(shop, piece.curve.end, F) - segment.wanted.end).norm() < 1e-6);
+    }
+  }
+}
+
+TEST_CASE("a jump that an exact stop forbids is listed, even where nothing else needs points") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X0. Y0. Z0.\nG61.1\nG1 X2. F100\nG0 Z20.\nM30\n",
+                   .force = constant_force(milling(), 0)});
+  const Compensation result = compensated(shop);
+  REQUIRE(result.left_alone.size() >= 1);
+  CHECK(result.left_alone[0].line == 4);
+  CHECK(result.counts.inserted_blocks == 0);
+}
+
+TEST_CASE("a block with a word that acts at its end is not split") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG1 Y126.35 F600 M5\nM30\n",
+                   .force = constant_force(milling())});
+  const Compensation result = compensated(shop);
+  CHECK(result.counts.inserted_blocks == 0);
+  REQUIRE(result.left_alone.size() == 1);
+  CHECK(result.left_alone[0].line == 3);
+}

@@ -1,0 +1,100 @@
+// Of one program all runs find the same deviation before compensation.
+#include "compensation/support/gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// Lines, quarters, full circles and helices; short moves and long ones.
+const char* const all_ways =
+    "G21 G90 G17\nG0 X25. Y0. Z5.\nG1 Z-1. F300\nG3 X25. Y0. I-25. J0. F600\nG3 X0. Y25. I-25. J0.\n"
+    "G1 X0. Y-10.\nX0.4\nX0.9 Y-9.7\nG2 X0.9 Y-9.7 Z-3. I5. J0. P3\nG2 X8. Y-2. R9.\nG1 X70. Y-30.\nG0 "
+    "Z20.\nM30\n";
+
+struct MeasuredPlace {
+  std::size_t segment;
+  double fraction;
+  Vector6 before;
+};
+
+std::vector<MeasuredPlace> measured_places(const std::vector<Waypoint>& waypoints) {
+  std::vector<MeasuredPlace> places;
+  for (const Waypoint& w : waypoints)
+    if (w.place) places.push_back({w.segment, w.fraction, w.before});
+  return places;
+}
+
+void check_same_places(const std::vector<MeasuredPlace>& expected, const std::vector<MeasuredPlace>& found) {
+  for (std::size_t i = 0; i < std::min(found.size(), expected.size()); ++i) {
+    CAPTURE(expected[i].segment);
+    CAPTURE(expected[i].fraction);
+    REQUIRE(found[i].segment == expected[i].segment);
+    REQUIRE(found[i].fraction == expected[i].fraction);
+  }
+  REQUIRE(found.size() == expected.size());
+  for (std::size_t i = 0; i < found.size(); ++i) {
+    CAPTURE(expected[i].segment);
+    CAPTURE(expected[i].fraction);
+    CHECK(found[i].segment == expected[i].segment);
+    CHECK(found[i].fraction == expected[i].fraction);
+    CHECK((found[i].before - expected[i].before).cwiseAbs().maxCoeff() < 1e-10);
+  }
+}
+
+void check_runs_agree_before(const Order& order) {
+  const Shop shop(order);
+  const ForwardRun predicted = solve_pieces(shop.job(), original_pieces(shop.job()), {.inside = false});
+  REQUIRE(!predicted.failure);
+  const Compensation verified = judged(shop, order.text);
+  const std::vector<MeasuredPlace> expected = measured_places(predicted.waypoints);
+  CHECK(expected.size() > 100);
+  CHECK(expected.front().fraction == 0);  // the start of the first feed, whose place is known from then on
+  check_same_places(expected, measured_places(verified.waypoints));
+  check_same_places(expected, measured_places(compensated(shop).waypoints));
+}
+
+double largest_miss_after(const std::vector<Waypoint>& waypoints) {
+  double largest = 0;
+  for (const Waypoint& w : waypoints) largest = std::max(largest, w.after.head<3>().norm());
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("predict, verify and compensate find the same deviation before, at the same places") {
+  const ForceSource forces[] = {{},
+                                constant_force(milling()),
+                                constant_force(milling(), 0),
+                                step_profile("0, 50, 0, 0\n60, 215, -10, -25\n140, 20, 100, -25\n", 2e-3)};
+  for (const ForceSource& force : forces)
+    for (const bool in_batches : {false, true}) {
+      CAPTURE(in_batches);
+      check_runs_agree_before({.machine = rigid_gantry("0, 0, 0", 0.05 * deg),
+                               .text = all_ways,
+                               .force = force,
+                               .in_batches = in_batches});
+      const bool slow = !in_batches && &force != &forces[1];  // one by one
+      if (slow) continue;
+      check_runs_agree_before({.machine = load_machine(orthoglide_b),
+                               .text = all_ways,
+                               .force = force,
+                               .in_batches = in_batches});
+    }
+}
+
+TEST_CASE("verify finds a wrong circle along which the correction is constant") {
+  // The start, the middle and the end of the circle are where this machine is right.
+  for (const std::string turns : {"", " P2", " P8", " P64"}) {
+    CAPTURE(turns);
+    const std::string bore =
+        "G21 G90\nG0 X25 Y0 Z5\nG1 Z-5 F300\nG3 X25 Y0 I-25 J0" + turns + " F600\nG0 Z20\nM30\n";
+    const Shop shop({.machine = rigid_gantry("0, 0, 0", 0.05 * deg), .text = bore});
+    const Compensation run = judged(shop, bore);
+    CHECK(largest_miss_after(run.waypoints) == doctest::Approx(25e-3 * std::sin(0.05 * deg)).epsilon(1e-3));
+    const auto failure = tolerance_failure(shop.job(), run.waypoints);
+    REQUIRE(failure);
+    CHECK(failure->exit == Exit::not_compensated);
+    CHECK(failure->line == 4);
+  }
+}

@@ -1,0 +1,197 @@
+// What happens between the ends of pieces is found.
+#include "compensation/support/gantry.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// The largest deviation (m) that `tolerance_failure` judges of pieces that command as they are given.
+double inside_of(const Shop& shop, const std::vector<Piece>& pieces) {
+  const ForwardRun run =
+      solve_pieces(shop.job(), pieces, {.before = false, .attribution = false, .inside = true});
+  if (run.failure) FAIL(run.failure->what);
+  double largest = 0;
+  for (const Waypoint& w : run.waypoints) largest = std::max(largest, w.after.head<3>().norm());
+  return largest;
+}
+
+/// Every segment one piece, commanded where the tip is right at its ends but nowhere else.
+std::vector<Piece> right_at_ends(const Shop& shop) {
+  std::vector<Piece> pieces;
+  const auto command = [&](std::size_t s, double u) {
+    const Vector3 wanted = point_at(shop.path.segments[s].wanted, u);
+    Vector3 target = wanted;
+    for (int i = 0; i < 6; ++i)
+      target += wanted - cold_tip(shop, target, shop.forces->at(s, u, u == 0 ? Side::after : Side::before));
+    return target;
+  };
+  for (std::size_t s = 0; s < shop.path.segments.size(); ++s) {
+    const Segment& segment = shop.path.segments[s];
+    Piece piece{
+        .segment = s, .line = segment.line, .commanded = segment.wanted, .end_only = !segment.cutting};
+    piece.commanded.start = command(s, 0);
+    piece.commanded.end = command(s, 1);
+    pieces.push_back(piece);
+  }
+  return pieces;
+}
+
+/// The same, judged densely and cold.
+double dense(const Shop& shop, const std::vector<Piece>& pieces, int inside) {
+  std::vector<Commanded> all;
+  for (const Piece& piece : pieces)
+    if (!piece.end_only) all.push_back({piece.segment, piece.u0, piece.u1, piece.commanded});
+  return dense_miss(shop, all, inside).size;
+}
+
+/// A head that deflects evenly, 10 µm under 100 N.
+Machine yielding_gantry() {
+  Machine machine = perfect_gantry();
+  Spring spring;
+  spring.K.diagonal() << 1e7, 1e7, 1e7, 1e6, 1e6, 1e6;
+  machine.chains[0].elements.push_back(spring);
+  return machine;
+}
+
+/// Along X in blocks of `block_mm` from 0 on.
+std::string blocks(int count, double block_mm) {
+  std::string text = "G21 G90\nG0 X-1 Y0 Z0\nG1 X0 F600\n";
+  for (int k = 1; k <= count; ++k) text += fmt::format("X{:.3f}\n", k * block_mm);
+  return text + "M30\n";
+}
+
+}  // namespace
+
+TEST_CASE("a narrow spike of the force inside a long block is found") {
+  Order order{.machine = yielding_gantry(),
+              .text = blocks(1, 150),
+              .force = step_profile("0,10,0,0\n100.3,300,0,0\n100.7,10,0,0\n", 0.2e-3)};
+  const Shop shop(order);
+  const std::vector<Piece> pieces = right_at_ends(shop);
+  const double largest = dense(shop, pieces, 3000);
+  CHECK(largest > 28e-6);
+  CHECK(inside_of(shop, pieces) > 0.99 * largest);
+  CHECK(tolerance_failure(shop.job(),
+                          solve_pieces(shop.job(), pieces, {.before = false, .inside = true}).waypoints));
+}
+
+TEST_CASE("a spike inside one of many short blocks is found") {
+  for (const char* const side : {"20.35,300,0,0\n20.45,10,0,0\n", "20.35,0,-90,0\n20.45,10,0,0\n"}) {
+    const Shop shop({.machine = yielding_gantry(),
+                     .text = blocks(60, 1),
+                     .force = step_profile("0,10,0,0\n" + std::string(side), 0.1e-3)});
+    const std::vector<Piece> pieces = right_at_ends(shop);
+    const double largest = dense(shop, pieces, 40);
+    CHECK(largest > 8e-6);
+    CHECK(inside_of(shop, pieces) > 0.99 * largest);
+  }
+}
+
+TEST_CASE("a hump of the force between the samples of a long block is found by closer samples") {
+  // Places are at 10 and 15 mm, the middle between them at 12.5 mm. The mean over 2 mm is largest at 11.25
+  // mm.
+  ForceSource force;
+  force.rules = read_force_csv(
+      "# frame = machine\n# sense = on_tool\n# interpolation = linear\ns_mm, fx_N, fy_N, fz_N\n"
+      "0,10,0,0\n9.75,10,0,0\n11.25,310,0,0\n12.75,10,0,0\n151,10,0,0\n",
+      "forces.csv");
+  force.blend = 2e-3;
+  const Shop shop({.machine = yielding_gantry(), .text = blocks(1, 150), .force = force});
+  const std::vector<Piece> pieces = right_at_ends(shop);
+  const double largest = dense(shop, pieces, 3000);
+  CHECK(largest > 15e-6);
+  CHECK(inside_of(shop, pieces) > 0.9 * largest);
+}
+
+TEST_CASE(
+    "without bounds every feed piece is sampled in its own middle, arcs every 11.25 degrees on all of their "
+    "turns") {
+  const Shop shop({.machine = perfect_gantry(),
+                   .text =
+                       "G21 G90 G17\nG0 X10 Y0 Z0\nG1 X10.5 F600\nX11\nX11.5\nX12\nG3 X12 Y0 Z-2 I-12 J0 P6\n"
+                       "G3 X0 Y12 I-12 J0\nM30\n",
+                   .in_batches = false});
+  const std::vector<Piece> pieces = right_at_ends(shop);
+  const ForwardRun run = solve_pieces(shop.job(), pieces, {});
+  REQUIRE(!run.failure);
+  for (const Piece& piece : pieces) {
+    if (piece.end_only) continue;
+    CAPTURE(piece.line);
+    const double sweep = piece.commanded.arc ? piece.commanded.arc->sweep : 0;
+    double last = 0, widest = 0;
+    for (const Waypoint& w : run.waypoints) {
+      if (w.segment != piece.segment) continue;
+      widest = std::max(widest, w.fraction - last);
+      last = w.fraction;
+    }
+    CHECK(last == 1);
+    CHECK(widest <= 0.5);
+    CHECK(widest * sweep <= 11.25 * deg * (1 + 1e-9));
+  }
+}
+
+TEST_CASE(
+    "a short line is judged by its ends where its cell bounds the rest, and inside where they leave too "
+    "little") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = blocks(40, 0.5),
+                   .force = constant_force(milling(), 0)});
+  const auto miss_of_ends = [&](double miss) {
+    std::vector<Piece> pieces = right_at_ends(shop);
+    for (Piece& piece : pieces) {
+      piece.commanded.start.z() += miss;
+      piece.commanded.end.z() += miss;
+    }
+    return pieces;
+  };
+  const auto inside = [&](const std::vector<Piece>& pieces) {
+    const ForwardRun run = solve_pieces(shop.job(), pieces, {.before = false});
+    REQUIRE(!run.failure);
+    return std::ranges::count_if(run.waypoints,
+                                 [](const Waypoint& w) { return w.between && !w.place && w.fraction > 0; });
+  };
+  const double tolerance = shop.options.tolerance;
+  CHECK(inside(miss_of_ends(0.5 * tolerance)) == 0);
+  CHECK(dense(shop, miss_of_ends(0.5 * tolerance), 7) < 0.8 * tolerance);
+  CHECK(inside(miss_of_ends(0.85 * tolerance)) >= 40);
+}
+
+TEST_CASE("a wave of the deviation on an arc is found") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90 G17\nG0 X60 Y0 Z0\nG2 X60 Y0 I-60 J0 F600\nM30\n",
+                   .force = constant_force(milling(), 0)});
+  const std::vector<Piece> pieces = right_at_ends(shop);
+  const double largest = dense(shop, pieces, 100);
+  CHECK(largest > 100e-6);
+  CHECK(inside_of(shop, pieces) > 0.95 * largest);
+}
+
+TEST_CASE("a correction that bends along a long block is found") {
+  for (const double end : {126.35, -20.0, -60.0}) {
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = fmt::format("G21 G90\nG0 X-73.65 Y-73.65 Z-73.65\nG1 Y{} F600\nM30\n", end),
+                     .force = constant_force(milling(), 0)});
+    const std::vector<Piece> pieces = right_at_ends(shop);
+    CHECK(inside_of(shop, pieces) > 0.98 * dense(shop, pieces, 100));
+  }
+}
+
+TEST_CASE("short blocks under a force of their own each are followed within the tolerance, inside too" *
+          doctest::test_suite("long")) {
+  std::string text = "G21 G90\nG0 X0 Y0 Z0\nG1 F600\n", rows = "# frame = machine\n# sense = on_tool\n";
+  rows += "line,fx_N,fy_N,fz_N\n";
+  for (int k = 1; k <= 300; ++k) {
+    text +=
+        fmt::format("X{:.3f} Y{:.3f} Z{:.3f}\n", 0.3 * k, 4 * std::sin(0.1 * k), 0.7 * std::cos(0.31 * k));
+    rows += fmt::format("{},{:.2f},{:.2f},{:.2f}\n", k + 3, 120 + 60 * std::sin(0.2 * k),
+                        40 * std::cos(2.3 * k), -25 + 10 * std::sin(1.7 * k));
+  }
+  ForceSource force;
+  force.rules = read_force_csv(rows, "forces.csv");
+  const Shop shop({.machine = load_machine(orthoglide_b), .text = text + "M30\n", .force = force});
+  const Compensation result = compensated(shop);
+  const Miss miss = dense_miss(shop, result, 7);
+  CAPTURE(miss.line);
+  CHECK(miss.size <= 5e-6);
+}
