@@ -1,10 +1,9 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include <fmt/format.h>
 
 #include <nlohmann/json.hpp>
 
 #include "batch/job_line.hpp"
+#include "counterflex/batch/manifest.hpp"
 
 namespace counterflex {
 namespace {

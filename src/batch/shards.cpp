@@ -1,5 +1,3 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -10,6 +8,7 @@
 #include <queue>
 #include <utility>
 
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/input_error.hpp"
 
 namespace counterflex {

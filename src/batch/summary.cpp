@@ -1,5 +1,3 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/text.hpp"
 
 namespace counterflex {

@@ -1,9 +1,8 @@
-#include "counterflex/compensation/loads_along.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
 
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/mechanism.hpp"

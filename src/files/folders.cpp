@@ -1,5 +1,3 @@
-#include "counterflex/files/files.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/stat.h>
@@ -9,6 +7,7 @@
 #include <cstring>
 #include <filesystem>
 
+#include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "files/descriptor.hpp"
 

@@ -1,10 +1,10 @@
-#include "counterflex/files/text.hpp"
-
 #include <algorithm>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
 #include <limits>
+
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 

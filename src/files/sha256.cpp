@@ -1,10 +1,9 @@
-#include "counterflex/files/files.hpp"
-
 #include <fmt/format.h>
 #include <openssl/evp.h>
 
 #include <stdexcept>
 
+#include "counterflex/files/files.hpp"
 
 namespace counterflex {
 namespace {

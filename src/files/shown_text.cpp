@@ -1,9 +1,8 @@
-#include "counterflex/files/text.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,9 +1,8 @@
-#include "counterflex/files/files.hpp"
-
 #include <cerrno>
 #include <cstring>
 #include <string>
 
+#include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "files/descriptor.hpp"
 

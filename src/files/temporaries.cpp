@@ -1,5 +1,3 @@
-#include "counterflex/files/file_writer.hpp"
-
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <sys/file.h>
@@ -8,6 +6,7 @@
 #include <map>
 #include <set>
 
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "files/descriptor.hpp"
 

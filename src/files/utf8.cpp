@@ -1,6 +1,6 @@
-#include "counterflex/files/text.hpp"
-
 #include <algorithm>
+
+#include "counterflex/files/text.hpp"
 
 namespace counterflex {
 namespace {

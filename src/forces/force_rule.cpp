@@ -1,7 +1,6 @@
-#include "counterflex/forces/cutting_model.hpp"
-
 #include <algorithm>
 
+#include "counterflex/forces/cutting_model.hpp"
 #include "counterflex/forces/forces.hpp"
 
 namespace counterflex {

@@ -4,9 +4,13 @@
 
 namespace counterflex {
 
-Pose translation(const Vector3& p) { return {Matrix3::Identity(), p}; }
+Pose translation(const Vector3& p) {
+  return {Matrix3::Identity(), p};
+}
 
-Pose rotation(const Matrix3& R) { return {R, Vector3::Zero()}; }
+Pose rotation(const Matrix3& R) {
+  return {R, Vector3::Zero()};
+}
 
 Pose moved(const Pose& X_AB, const Vector6& step) {
   return {exp_so3(step.tail<3>()) * X_AB.R, X_AB.p + step.head<3>()};

@@ -1,7 +1,7 @@
-#include "counterflex/geometry/pose.hpp"
-
 #include <Eigen/Geometry>
 #include <cmath>
+
+#include "counterflex/geometry/pose.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,6 +1,5 @@
-#include "counterflex/machine/machine.hpp"
-
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
 

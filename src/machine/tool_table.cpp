@@ -1,5 +1,3 @@
-#include "counterflex/machine/read_machine.hpp"
-
 #include <fmt/format.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,8 +1,8 @@
-#include "counterflex/machine/machine.hpp"
-
 #include <algorithm>
 #include <array>
 #include <charconv>
+
+#include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
 namespace {

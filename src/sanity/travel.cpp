@@ -1,10 +1,9 @@
-#include "counterflex/statics/mechanism.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 
 #include "counterflex/sanity/checks.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 

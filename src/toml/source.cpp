@@ -27,7 +27,8 @@ toml::table Source::parse() const {
   if (const auto deep = find_too_deep(text_)) {
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), deep->offset);
     const auto column = static_cast<int>(deep->offset - *(after - 1)) + 1;
-    throw InputError(Exit::machine_or_force, {file_, static_cast<int>(after - line_starts_.begin()), column}, deep->what);
+    throw InputError(Exit::machine_or_force, {file_, static_cast<int>(after - line_starts_.begin()), column},
+                     deep->what);
   }
   try {
     return toml::parse(text_);

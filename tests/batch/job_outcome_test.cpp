@@ -1,6 +1,5 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include "batch/outcomes.hpp"
+#include "counterflex/batch/manifest.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;

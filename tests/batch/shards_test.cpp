@@ -1,5 +1,3 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -8,6 +6,7 @@
 #include <random>
 #include <set>
 
+#include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/input_error.hpp"
 
 namespace counterflex {

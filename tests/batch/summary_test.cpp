@@ -1,8 +1,8 @@
-#include "counterflex/batch/manifest.hpp"
-
 #include <doctest/doctest.h>
 
 #include <nlohmann/json.hpp>
+
+#include "counterflex/batch/manifest.hpp"
 
 namespace counterflex {
 namespace {

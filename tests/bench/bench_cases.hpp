@@ -65,7 +65,8 @@ inline const Case& robot_6r() {
 }
 /// Its links weigh 0.76 t.
 inline const Case& robot_masses() {
-  static const Case c = line_case("samples/robot-spindle/machine.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
+  static const Case c =
+      line_case("samples/robot-spindle/machine.toml", Vector3(0, -100, 0), Vector3(0, 100, 0));
   return c;
 }
 inline const Case& mill() {

@@ -1,5 +1,4 @@
 #include "counterflex/files/files.hpp"
-
 #include "counterflex/files/input_error.hpp"
 #include "files/folder.hpp"
 

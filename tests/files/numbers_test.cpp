@@ -1,10 +1,10 @@
-#include "counterflex/files/text.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
 #include <limits>
 #include <random>
+
+#include "counterflex/files/text.hpp"
 
 using namespace counterflex;
 

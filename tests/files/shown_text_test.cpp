@@ -1,8 +1,7 @@
-#include "counterflex/files/text.hpp"
-
 #include <doctest/doctest.h>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/text.hpp"
 
 using namespace counterflex;
 

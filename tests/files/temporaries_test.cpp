@@ -1,9 +1,8 @@
-#include "counterflex/files/file_writer.hpp"
-
 #include <sys/wait.h>
 
 #include <set>
 
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "files/folder.hpp"
 

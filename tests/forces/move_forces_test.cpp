@@ -1,7 +1,6 @@
-#include "counterflex/forces/forces.hpp"
-
 #include <doctest/doctest.h>
 
+#include "counterflex/forces/forces.hpp"
 #include "forces/sample_cut.hpp"
 #include "forces/sample_path.hpp"
 

@@ -1,9 +1,8 @@
-#include "counterflex/forces/cutting_model.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "counterflex/forces/cutting_model.hpp"
 #include "forces/sample_cut.hpp"
 
 using namespace counterflex;

@@ -1,5 +1,3 @@
-#include "counterflex/geometry/pose.hpp"
-
 #include <doctest/doctest.h>
 
 #include <Eigen/Geometry>
@@ -7,6 +5,7 @@
 #include <random>
 #include <vector>
 
+#include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 
 using namespace counterflex;

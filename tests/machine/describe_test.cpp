@@ -1,9 +1,8 @@
-#include "counterflex/machine/read_machine.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "counterflex/machine/read_machine.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

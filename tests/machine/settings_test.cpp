@@ -1,7 +1,7 @@
 #include <doctest/doctest.h>
 
-#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

@@ -1,8 +1,7 @@
-#include "counterflex/machine/read_machine.hpp"
-
 #include <doctest/doctest.h>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/machine/read_machine.hpp"
 
 using namespace counterflex;
 

@@ -4,8 +4,8 @@
 #include <cmath>
 #include <numbers>
 
-#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "machine_texts.hpp"
 
 using namespace counterflex;

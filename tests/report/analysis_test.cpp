@@ -8,8 +8,8 @@
 #include <sstream>
 
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/read_machine.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "support/text.hpp"
 

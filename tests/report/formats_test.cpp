@@ -449,7 +449,7 @@ TEST_CASE("the summary has at most twelve lines: verdict, deviation, force, prog
   CAPTURE(text);
   CHECK(lines_of(text).size() <= 12);
   CHECK(contains(text, "\ncompensate made_up.ngc on Mill\n"));
-  CHECK(contains(text, "  before      0.5000 mm, line 4: geometry "));
+  CHECK(contains(text, "  before      0.5000 mm, line 4: assembly "));
   CHECK(contains(text,
                  "  after       0.0050 mm, line 4 (100 times smaller); by the model, tolerance 0.0050 mm\n"));
   CHECK(contains(text, "; 30 % more: 0.0800 mm, 30 % less: 0.0700 mm, none: 0.2500 mm\n"));

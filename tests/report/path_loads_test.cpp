@@ -1,10 +1,9 @@
-#include "counterflex/report/path_curves.hpp"
-
 #include <doctest/doctest.h>
 
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/report/analysis.hpp"
 #include "counterflex/report/formats.hpp"
+#include "counterflex/report/path_curves.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
 

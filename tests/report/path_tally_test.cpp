@@ -1,9 +1,8 @@
-#include "counterflex/report/run_tally.hpp"
-
 #include <doctest/doctest.h>
 
 #include <algorithm>
 
+#include "counterflex/report/run_tally.hpp"
 #include "made_up_run.hpp"
 
 using namespace counterflex;

@@ -1,9 +1,8 @@
-#include "counterflex/report/report.hpp"
-
 #include <doctest/doctest.h>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/report/report.hpp"
 #include "files/folder.hpp"
 #include "support/text.hpp"
 

@@ -1,6 +1,4 @@
 // Deviation at rim and flank of a tilted tool.
-#include "counterflex/report/statistics.hpp"
-
 #include <doctest/doctest.h>
 
 #include <cmath>
@@ -8,6 +6,7 @@
 #include <random>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/report/statistics.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
 

@@ -1,10 +1,9 @@
-#include "counterflex/report/statistics.hpp"
-
 #include <doctest/doctest.h>
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
+#include "counterflex/report/statistics.hpp"
 
 using namespace counterflex;
 

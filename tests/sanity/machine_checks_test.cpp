@@ -1,5 +1,3 @@
-#include "counterflex/sanity/checks.hpp"
-
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
@@ -7,6 +5,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/sanity/checks.hpp"
 
 using namespace counterflex;
 

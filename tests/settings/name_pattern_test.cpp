@@ -1,6 +1,6 @@
-#include "counterflex/settings/jobs_file.hpp"
-
 #include <doctest/doctest.h>
+
+#include "counterflex/settings/jobs_file.hpp"
 
 using namespace counterflex;
 

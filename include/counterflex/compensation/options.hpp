@@ -77,9 +77,9 @@ inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 /// should follow. Positions of targets in M (m). A rapid, or a move whose start is unknown, is judged at its
 /// end alone.
 struct Piece {
-  std::size_t segment =
-      0;         ///< index into Toolpath::segments; no_segment for a position reached from an unknown one
-  int line = 0;  ///< of the original program
+  /// Index into Toolpath::segments; no_segment for a position reached from an unknown one.
+  std::size_t segment = 0;
+  int line = 0;            ///< of the original program
   int corrected_line = 0;  ///< of the corrected one; 0: none
   double u0 = 0, u1 = 1;
   std::size_t frame = 0;  ///< index into Toolpath::frames

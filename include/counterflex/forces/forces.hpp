@@ -86,8 +86,8 @@ ForceRule parse_force_rule(std::string_view text);
 /// places, the most specific one that covers a move acts on it.
 struct ForceSource {
   std::vector<ForceRule> rules{};
-  double blend =
-      2e-3;  ///< m; what acts is the mean over the last min(blend, half of the feed run) of feed path
+  /// m; what acts is the mean over the last min(blend, half of the feed run) of feed path.
+  double blend = 2e-3;
   double scale = 1.0;
   std::optional<double>
       air_above_mm{};  ///< Z of program coordinates: feed moves wholly above it carry no force

@@ -200,9 +200,9 @@ struct Machine {
   std::map<long, Tool> tools;  ///< by number
   ControlSettings control;
   Gravity gravity;
-  double max_correction = 1e-3;    ///< m
-  Vector3 p_EP = Vector3::Zero();  ///< reference point in the frame where the chains end: not zero for a
-                                   ///< machine with a tool that bends (m)
+  double max_correction = 1e-3;  ///< m
+  /// Reference point in the frame where the chains end: not zero for a machine with a tool that bends (m).
+  Vector3 p_EP = Vector3::Zero();
   std::vector<Chain> chains;
   std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
 };

@@ -155,11 +155,12 @@ struct Move {
   BoxedOptional<CycleMove> cycle;
   BoxedOptional<CalledCycle> called;  ///< if set, the word of Z is its first height
   BoxedOptional<CornerEnds> corners;  ///< corners at its ends; infinite if a size is unknown
-  BoxedOptional<Vector6> force;  ///< of the modal comment (FORCE ...): (N, N m) on the tool, machine frame;
-                                 ///< empty after (FORCE OFF). A comment applies from its own block on
-  double feed_mm_min = 0;        ///< modal F; 0 before the first F
-  double feed_per_min = 0;       ///< F of a G93 move: 1/min
-  double spindle_rpm = 0;        ///< modal S
+  /// Of the modal comment (FORCE ...): (N, N m) on the tool, machine frame; empty after (FORCE OFF). A
+  /// comment applies from its own block on.
+  BoxedOptional<Vector6> force;
+  double feed_mm_min = 0;            ///< modal F; 0 before the first F
+  double feed_per_min = 0;           ///< F of a G93 move: 1/min
+  double spindle_rpm = 0;            ///< modal S
   std::optional<long> block_number;  ///< N
   std::uint32_t frame = 0;           ///< index into Program::frames
   std::int32_t tool = 0;             ///< T in the spindle, else H of G43; 0: unknown
@@ -171,16 +172,17 @@ struct Move {
   std::array<bool, 3> known_start{};  ///< whether the position before the move is known, by axis
   std::array<bool, 3> known_end{};    ///< whether the position after the move is known, by axis
   std::array<bool, 3> ignored{};      ///< axes that are not corrected: no word is inserted for them
-  std::array<bool, 3> fixed{};        ///< axes that the block moves to a position that no edit can shift (an
-                                ///< expression, a subprogram): the correction at that place must be zero
+  /// Axes that the block moves to a position that no edit can shift (an expression, a subprogram): the
+  /// correction at that place must be zero.
+  std::array<bool, 3> fixed{};
   bool relative = false;             ///< G91: words are differences from the start
   std::uint8_t incremental : 3 = 0;  ///< bit of an axis: only its word is a difference from the start
   bool polar : 1 = false;       ///< LP, CP of Klartext: two coordinates come from one pair of polar words
   bool takes_no_z : 1 = false;  ///< no Z word may be inserted: beside a corner, in holes of a Klartext cycle
   /// Klartext and Sinumerik: a cycle that moves with the tool is called at its end.
   bool makes_hole : 1 = false;
-  bool mills_at_end : 1 = false;     ///< a cycle mills around its end and shifts with it as a whole; its own
-                                     ///< motions are not corrected
+  /// A cycle mills around its end and shifts with it as a whole; its own motions are not corrected.
+  bool mills_at_end : 1 = false;
   bool repeats_surface : 1 = false;  ///< its Z is the surface of a Klartext cycle, given by an earlier hole
   bool may_position : 1 = false;     ///< of a called cycle: a rapid to its X and Y may be inserted before it
   /// 1 X, 2 Y: its word is ANG=, the direction of the line; the other axis has a word. 0: no ANG=.
@@ -189,8 +191,8 @@ struct Move {
   bool stays_whole : 1 = false;
   bool block_delete : 1 = false;  ///< a '/' block: states that it sets are unknown afterwards
   bool exact_stop : 1 = false;    ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
-  bool may_split : 1 = false;  ///< points may be inserted: a feed move without exact stop and without a word
-                               ///< that acts at its end
+  /// Points may be inserted: a feed move without exact stop and without a word that acts at its end.
+  bool may_split : 1 = false;
   /// A feed move may be inserted before it: start and feed are known, no exact stop.
   bool may_jump : 1 = false;
   bool may_insert_words : 1 = true;  ///< axis words may be inserted; false for a block with G43, G44 or G49
@@ -236,9 +238,9 @@ inline bool takes_all_words(const Move& move) {
 struct LeftAlone {
   int line = 0;
   std::string why;
-  bool machine_position = false;  ///< the block moves axes to a position in machine coordinates, so it is not
-                                  ///< a move of the program
-  int text_line = 0;              ///< as in Move
+  /// The block moves axes to a position in machine coordinates, so it is not a move of the program.
+  bool machine_position = false;
+  int text_line = 0;  ///< as in Move
 };
 
 /// Line of Program::text of a move or of an uncorrected block. Both are sorted by it.
@@ -298,8 +300,8 @@ struct ProgramFrame {
   std::string work_offset{};            ///< "G54", "G54.1 P3", ...; empty: no offset was selected yet
   Vector3 origin_mm = Vector3::Zero();  ///< in coordinates of the offset
   double turn_rad = 0;                  ///< about Z, counter-clockwise
-  std::array<std::optional<double>, 3> set_mm{};  ///< by axis: position of the offset in machine coordinates,
-                                                  ///< if the program sets it (G10 L2)
+  /// By axis: position of the offset in machine coordinates, if the program sets it (G10 L2).
+  std::array<std::optional<double>, 3> set_mm{};
 
   bool operator==(const ProgramFrame&) const = default;
 };
@@ -321,12 +323,14 @@ struct Program {
   std::string dialect;  ///< the dialect that was read, never "auto"
   IntegerWords integer_words = IntegerWords::unspecified;
   std::vector<Move> moves;
-  std::optional<Move> before{};  ///< of a window: last move of the window before it, and first move of the
-  std::optional<Move> after{};   ///< next window; their spans refer to other texts
+  /// Of a window: the last move of the window before it. Its spans refer to another text.
+  std::optional<Move> before{};
+  /// Of a window: the first move of the next window. Its spans refer to another text.
+  std::optional<Move> after{};
   /// Coordinate systems of the moves; the first: no offset was selected yet.
   std::vector<ProgramFrame> frames{{}};
-  std::vector<std::string> operations{""};  ///< comments that are alone in their lines, of this
-                                            ///< window; the first: the last one before the window
+  /// Comments that are alone in their lines, of this window; the first: the last one before the window.
+  std::vector<std::string> operations{""};
   /// The title of each of `operations`: the first comment after a tool change, a blank line or a rapid move.
   std::vector<std::string> operation_titles{""};
   std::vector<LeftAlone> left_alone;

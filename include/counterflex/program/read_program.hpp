@@ -22,8 +22,8 @@ struct ReadOptions {
   std::optional<std::vector<char>> tool_change_moves;
   IntegerWords integer_words = IntegerWords::unspecified;
   bool absolute_centres = false;  ///< I, J, K of arcs are coordinates, until the program changes it (G91.1)
-  std::map<long, double> tool_lengths_mm{};  ///< by H, or by the active tool if G43 has no H: if
-                                             ///< both lengths are known, Z stays known at a tool change
+  /// By H, or by the active tool if G43 has no H: if both lengths are known, Z stays known at a tool change.
+  std::map<long, double> tool_lengths_mm{};
   bool evaluate = false;  ///< evaluates variables that the program sets to constants, and expressions of them
   /// Replaces calls by M98, CALL LBL and O-words with plain numbers by the bodies.
   bool expand_subprograms = false;

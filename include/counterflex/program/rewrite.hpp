@@ -36,12 +36,13 @@ class BlockNumbers {
 };
 
 struct WriteOptions {
-  int decimals = -1;  ///< digits after the decimal point of changed and inserted words; -1: as in
-                      ///< the word, at least the dialect's resolution
+  /// Digits after the decimal point of changed and inserted words; -1: as in the word, at least the dialect's
+  /// resolution.
+  int decimals = -1;
   std::vector<std::string> header;  ///< texts of the header's comments, without comment characters
-  const BlockNumbers* number_pieces = nullptr;  ///< numbers of the program: the pieces of a block Nn after
-                                                ///< the first become Nn+1, Nn+2 ... if these are free. Null:
-                                                ///< they have no N
+  /// Numbers of the program: the pieces of a block Nn after the first become Nn+1, Nn+2 ... if these are
+  /// free. Null: they have no N.
+  const BlockNumbers* number_pieces = nullptr;
 };
 
 /// A point on the path of a move. The tool reaches it on a line, or on an arc about a centre in the move's
@@ -56,11 +57,12 @@ struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
   /// Inserts a feed move to this point first, also before a rapid; needs `may_jump`.
   std::optional<Vector3> jump_mm{};
-  std::vector<Via> inserted{};  ///< points on the path, same motion and feed; need `may_split`; under G93
-                                ///< they share the block's time by length
+  /// Points on the path, same motion and feed; need `may_split`; under G93 they share the block's time by
+  /// length.
+  std::vector<Via> inserted{};
   Vector3 end_mm = Vector3::Zero();
-  std::optional<Vector3> centre_mm{};  ///< of an arc's last piece; empty for an arc: it is written
-                                       ///< as chords through the inserted points, under G1
+  /// Of an arc's last piece; empty for an arc: it is written as chords through the inserted points, under G1.
+  std::optional<Vector3> centre_mm{};
   std::optional<double> bottom_mm{}, retract_mm{};  ///< of a cycle: its Z and R as absolute coordinates
 };
 

@@ -21,8 +21,8 @@ inline bool has_values(Status status) {
 struct CorrectedTarget {
   Pose X_MT;            ///< nominal forward kinematics of `rho`; `linear`: the linear target
   Eigen::VectorXd rho;  ///< actuator values (m, rad)
-  Status status = Status::not_converged;  ///< pose and actuators are meaningful only when `converged`, or
-                                          ///< `outside_travel`
+  /// Pose and actuators are meaningful only when `converged`, or `outside_travel`.
+  Status status = Status::not_converged;
 };
 
 /// The tip held at a pose, the actuators commanded for the analyzed one: paper's (1).
@@ -37,10 +37,10 @@ struct HeldPose {
 
 /// What `analyze` computes besides the standard tables.
 struct AnalysisExtras {
-  const Mechanism* machine =
-      nullptr;               ///< without the tool that the model has; null: the model has no tool of its own
-  bool full = false;         ///< details of every chain
-  std::optional<Pose> hold;  ///< X_MT
+  /// Without the tool that the model has; null: the model has no tool of its own.
+  const Mechanism* machine = nullptr;
+  bool full = false;                  ///< details of every chain
+  std::optional<Pose> hold;           ///< X_MT
   std::optional<CurveRequest> curve;  ///< its load is the analysis's own
 };
 
@@ -51,25 +51,25 @@ struct PoseAnalysis {
   /// actuators).
   Status status = Status::not_converged;
   std::string why;  ///< in words where `status` is another
-  Vector6 deviation =
-      Vector6::Zero();          ///< position (m), rotation vector of R_actual R_target' (rad), axes of M
-  Matrix6 K = Matrix6::Zero();  ///< SI, at the reference point; at the nominal pose for `linear`, else at the
-                                ///< loaded one
+  /// Position (m), rotation vector of R_actual R_target' (rad), axes of M.
+  Vector6 deviation = Vector6::Zero();
+  /// SI, at the reference point; at the nominal pose for `linear`, else at the loaded one.
+  Matrix6 K = Matrix6::Zero();
   std::optional<Matrix6> tip_compliance;     ///< `compliance_at_tip`, at the same pose
   std::optional<Matrix6> tip_stiffness;      ///< its inverse; none where the machine is rigid in a direction
   bool stiffness_available = false;          ///< every chain has a stiffness of its own
   Eigen::VectorXd rho;                       ///< nominal actuator values of the wanted pose (m, rad)
   std::optional<CorrectedTarget> corrected;  ///< none where the machine controls nothing
   std::vector<ChainLoads> chains;
-  Vector6 weakest =
-      Vector6::Zero();  ///< the twist of least stiffness (unit norm, lengths in units of l); zero: unknown
+  /// The twist of least stiffness (unit norm, lengths in units of l); zero: unknown.
+  Vector6 weakest = Vector6::Zero();
   double weakest_stiffness = 0;       ///< in that direction (N/m); 0: not computed
   Vector3 softest = Vector3::Zero();  ///< direction (M) in which a force at the tip moves the tip furthest
   double softest_stiffness = 0;  ///< force over motion in that direction (N/m); 0: not computed, or rigid
-  bool indeterminate =
-      false;             ///< redundant rigid closures: the chains' wrenches are the minimum-norm ones of many
-  double condition = 0;  ///< of the static system; 0: not computed
-  double stability = 0;  ///< see `stability` in statics/equilibrium.hpp; 0: not computed
+  /// Redundant rigid closures: the chains' wrenches are the minimum-norm ones of many.
+  bool indeterminate = false;
+  double condition = 0;              ///< of the static system; 0: not computed
+  double stability = 0;              ///< see `stability` in statics/equilibrium.hpp; 0: not computed
   std::vector<ChainDetail> details;  ///< of `AnalysisExtras::full`
   std::optional<HeldPose> held;
   std::optional<ForceCurve> curve;

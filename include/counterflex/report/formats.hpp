@@ -24,8 +24,8 @@ std::string to_json(const SanityChecks& checks);
 
 /// Which columns of the CSV were computed; the others keep their place and are empty.
 struct CsvColumns {
-  bool attribution =
-      true;  ///< geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_
+  /// geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_.
+  bool attribution = true;
   bool corrected = true;  ///< after_, correction_: not for a prediction
 };
 

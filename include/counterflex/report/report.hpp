@@ -41,8 +41,8 @@ struct RunFacts {
   std::string output;           ///< path of the corrected program; empty: no program is written
   bool accept_partial = false;  ///< PARTLY does not count as a failure
   double min_block_ms = 2;      ///< what takes less time is a short block
-  bool attribution =
-      false;  ///< the waypoints' geometry, load, superposition, air, higher and lower were solved
+  /// The waypoints' geometry, load, superposition, air, higher and lower were solved.
+  bool attribution = false;
 };
 
 /// Where a line's largest deviation is.
@@ -221,8 +221,8 @@ struct RunReport {
   std::vector<ToolReport> tools_off;        ///< tools of feed moves, the largest deviation first
   std::optional<Largest> correction;        ///< largest change of a target
   std::optional<double> corrected_percent;  ///< of `path_mm`: what is corrected and held to the tolerance
-  std::vector<OperationReport> operations;  ///< in the order in which they are met; of many the last one
-                                            ///< represents all others
+  /// In the order in which they are met; of many the last one represents all others.
+  std::vector<OperationReport> operations;
   ShownUnits units;
   BlockCounts blocks;
   TextSize text_before;

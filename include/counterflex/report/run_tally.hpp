@@ -112,9 +112,10 @@ class PathTally {
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
   bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
   double piece_weight_ = 0;    ///< of the piece under way
-  double place_weight_ = 0;  ///< of the way since the last place of the original path: all means but those of
-                             ///< `after` are over these places
-  std::optional<End> end_;   ///< the last one
+  /// Of the way since the last place of the original path: all means but those of `after` are over these
+  /// places.
+  double place_weight_ = 0;
+  std::optional<End> end_;  ///< the last one
   std::vector<OperationTally> operations_;
 };
 

@@ -20,8 +20,8 @@ inline constexpr double indistinct_mm = 1e-7;
 
 struct DeviationStatistics {
   double max_mm = 0;  ///< largest norm of the position deviation
-  double rms_mm =
-      0;  ///< rms, mean and p95 of that norm weigh every sample by its share of the cutting length
+  /// Rms, mean and p95 of that norm weigh every sample by its share of the cutting length.
+  double rms_mm = 0;
   double mean_mm = 0;
   double p95_mm = 0;  ///< on 95 % of the length the norm is not larger; at most 0.1 % above the exact value
   int max_line = 0;   ///< where the norm is largest; the first such line; 0 where there was no sample
@@ -34,8 +34,8 @@ struct DeviationStatistics {
 
 /// One place where the deviation is known.
 struct DeviationSample {
-  Vector6 deviation =
-      Vector6::Zero();  ///< actual minus wanted: position (m), rotation vector (rad), axes of M
+  /// Actual minus wanted: position (m), rotation vector (rad), axes of M.
+  Vector6 deviation = Vector6::Zero();
   Vector3 direction = Vector3::Zero();   ///< unit vector of the path in M, zero where it has none
   Vector3 tool_axis = Vector3::UnitZ();  ///< unit, axes of M
   double weight = 0;                     ///< share of the cutting length (m); 0 counts in the maxima alone
@@ -221,8 +221,8 @@ struct WithoutForceRow {
 struct WithoutForce {
   std::size_t moves = 0;
   double length_mm = 0;
-  std::vector<WithoutForceReason> reasons;  ///< as they were first met; where there are more than
-                                            ///< `listed_at_most` the last one represents all others
+  /// As they were first met; where there are more than `listed_at_most` the last one represents all others.
+  std::vector<WithoutForceReason> reasons;
   Capped<WithoutForceRow> rows;
 };
 

@@ -48,8 +48,9 @@ struct BatchLine {
 /// Bounds of what happens between the ends of a line. Infinite where they are not known: solve inside.
 struct LineBend {
   double command;  ///< m: from the command to its chord, if the tip goes straight from p0 to p1
-  double gain;     ///< m/m: of the tip for a change of the command; gain times command: from the tip to its
-                   ///< chord, if the command goes straight
+  /// m/m: of the tip for a change of the command; gain times command: from the tip to its chord, if the
+  /// command goes straight.
+  double gain;
 };
 
 /// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place

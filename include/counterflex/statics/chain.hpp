@@ -80,8 +80,8 @@ Vector6 holding_wrench_at_tip(const Mechanism& mechanism, const Configuration& c
 /// passive revolute joints by their change from the nominal configuration. SI.
 struct ChainLoads {
   std::string name;
-  Vector6 wrench =
-      Vector6::Zero();  ///< that the platform exerts on the chain's end, at the reference point, axes of M
+  /// Exerted by the platform on the chain's end, at the reference point, axes of M.
+  Vector6 wrench = Vector6::Zero();
   double moment_max = 0;
   double spring_translation_max = 0;
   double spring_rotation_max = 0;
@@ -106,8 +106,8 @@ double value_of(const ChainLoads& loads, LoadKind kind);
 
 /// One coordinate: a joint, a compliance, or one component of a spring. SI.
 struct CoordinateDetail {
-  std::string element;  ///< its number in the chain, "7/upper_bar/4" in the fourth place of a branch; masses
-                        ///< not counted
+  /// Its number in the chain, "7/upper_bar/4" in the fourth place of a branch; masses not counted.
+  std::string element;
   PartKind kind = PartKind::passive;
   int component = -1;  ///< of a spring, 0 to 5: x y z rx ry rz; else -1
   bool angular = false;

@@ -65,11 +65,11 @@ struct Mechanism {
   std::vector<Component> controlled;
   std::vector<Travel> travel;  ///< by actuator
   Pose X_PT;
-  Vector3 p_EP = Vector3::Zero();     ///< reference point in the frame where the chains end: not zero with a
-                                      ///< tool that bends
+  /// Reference point in the frame where the chains end: not zero with a tool that bends.
+  Vector3 p_EP = Vector3::Zero();
   Vector3 gravity = Vector3::Zero();  ///< m/s2, axes of M; zero where no weights act: then no part is a mass
-  double length =
-      0.1;  ///< l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m
+  /// l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m.
+  double length = 0.1;
   double stiffest = 0;  ///< k_max, N/m (rotational stiffness divided by l^2)
 };
 
@@ -94,8 +94,8 @@ struct GroupState {
 struct SeriesState {
   Eigen::VectorXd x;          ///< by column (m, rad); a group's six entries are unused
   Eigen::VectorXd x_nominal;  ///< the same in the nominal configuration from which this one was continued
-  Vector6 F =
-      Vector6::Zero();  ///< wrench exerted on the end (N, N m), at the end's origin, axes of the start frame
+  /// Wrench exerted on the end (N, N m), at the end's origin, axes of the start frame.
+  Vector6 F = Vector6::Zero();
   std::vector<GroupState> groups;
 };
 
@@ -117,8 +117,8 @@ void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho,
 struct Stage {
   double errors = 1;  ///< assembly errors: s p, Exp(s Log R)
   double load = 1;    ///< the applied wrench
-  double preload =
-      1;  ///< passive springs as k (q - q_nom) + s k (q_nom - q_rest), springs as K (theta - s theta_0)
+  /// Passive springs as k (q - q_nom) + s k (q_nom - q_rest), springs as K (theta - s theta_0).
+  double preload = 1;
   double gravity = 1;  ///< the weights of all masses, and what the controller's zero holds against them
 
   bool operator==(const Stage&) const = default;

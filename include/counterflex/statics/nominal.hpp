@@ -28,8 +28,8 @@ struct Model {
   Configuration home;
   Status home_status = Status::not_converged;  ///< unreachable: home misses its closures by `home_gap`
   double home_gap = 0;                         ///< m and rad
-  Status gravity_status =
-      Status::converged;  ///< else: why no offsets hold the tip at home under the machine's weight
+  /// Else: why no offsets hold the tip at home under the machine's weight.
+  Status gravity_status = Status::converged;
 };
 
 /// Compiles `machine`, finds its home configuration, and fills what is relative to it: rest values of passive

@@ -43,8 +43,8 @@ struct CurvePoint {
 };
 
 struct ForceCurve {
-  Status status =
-      Status::not_converged;  ///< of the state without the force, then of the first point that was not found
+  /// Of the state without the force, then of the first point that was not found.
+  Status status = Status::not_converged;
   std::vector<CurvePoint> points;  ///< by displacement; those that were found
   /// The last stable state before the first unstable one, on the way from displacement 0 to either side: a
   /// limit point (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself.

@@ -15,10 +15,11 @@ namespace counterflex {
 struct WorkFrame {
   std::string name{};  ///< of the offset that was used ("G54"); empty: program coordinates are M
   Pose X_MW;           ///< as the control has it: a target in M is written as X_MW^-1 of it
-  Vector3 datum_shift =
-      Vector3::Zero();  ///< wanted minus commanded position of the original program, axes of M (m)
-  std::optional<Vector3> common_shift{};  ///< where no datum is stated: the mean deviation of the unloaded
-                                          ///< machine along the feed moves, axes of M (m)
+  /// Wanted minus commanded position of the original program, axes of M (m).
+  Vector3 datum_shift = Vector3::Zero();
+  /// Where no datum is stated: the mean deviation of the unloaded machine along the feed moves, axes of M
+  /// (m).
+  std::optional<Vector3> common_shift{};
 };
 
 /// The same frame for all offsets of `program`.
@@ -37,8 +38,8 @@ struct Segment {
   double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where no feed is programmed
   double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
-  double t_start =
-      0;  ///< time at the start at programmed feeds, feed moves only; does not advance without a feed (s)
+  /// Time at the start at programmed feeds, feed moves only; does not advance without a feed (s).
+  double t_start = 0;
   double t_end = 0;
 };
 

@@ -13,8 +13,8 @@ namespace counterflex::cli {
 struct WorkPlace {
   std::vector<WorkFrame>
       frames;  ///< by index into Program::frames; without names if the machine has no table of offsets
-  std::string assumption;  ///< for a warning: moves before an offset is selected, several offsets without a
-                           ///< table; or empty
+  /// For a warning: moves before an offset is selected, several offsets without a table; or empty.
+  std::string assumption;
 };
 
 /// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off

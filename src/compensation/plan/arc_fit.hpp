@@ -32,8 +32,8 @@ struct FittedArc {
   std::optional<Vector3> step_mm{};  ///< a line to this point, above or below the start, goes first
   Via via;
   Curve read;  ///< what a control reads
-  double miss_mm =
-      0;  ///< from the commanded curve, at corners and 16 places or more, at most 11.25 degrees apart
+  /// From the commanded curve, at corners and 16 places or more, at most 11.25 degrees apart.
+  double miss_mm = 0;
   bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
 };
 

@@ -14,14 +14,15 @@ struct PlannedSegment {
   Vector3 start_target = Vector3::Zero();  ///< where the segment should begin (M, m)
   bool starts_anywhere = false;            ///< a rapid begins where the move before it ended
   std::optional<Vector3> end{};            ///< of a segment that is not divided: the target at its end (M, m)
-  std::vector<Knot> knots;           ///< else the last one is its end; a step within is two knots at one
-                                     ///< fraction
-  std::vector<CorrectionCurve> arc;  ///< of an arc: its correction between steps of the force; its text is
-                                     ///< fitted when it is known where the one before it ends
-  std::vector<CurveNode> group;      ///< of a move of a contour group: corrections at places along it
-  double gain = 1;                   ///< of an arc: the tip moves by at most this for a change of target
-  double unsplit_miss =
-      0;  ///< m: largest deviation inside, where points would have been needed but must not be inserted
+  /// Else the last one is its end; a step within is two knots at one fraction.
+  std::vector<Knot> knots;
+  /// Of an arc: its correction between steps of the force; its text is fitted when it is known where the one
+  /// before it ends.
+  std::vector<CorrectionCurve> arc;
+  std::vector<CurveNode> group;  ///< of a move of a contour group: corrections at places along it
+  double gain = 1;               ///< of an arc: the tip moves by at most this for a change of target
+  /// m: largest deviation inside, where points would have been needed but must not be inserted.
+  double unsplit_miss = 0;
 };
 
 struct Plan {

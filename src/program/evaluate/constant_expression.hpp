@@ -13,12 +13,12 @@ using ValueOf = std::function<std::optional<double>(const std::string& name)>;
 
 /// Spelling of expressions, and precedence of the operators of conditions.
 enum class ExpressionSyntax {
-  brackets,    ///< G-code: [#1 + 2], SIN[30], #<name>, #[#1 + 1], 2 ** 3, 7 MOD 2, ATAN[1]/[2]; no conditions
-  linuxcnc,    ///< brackets; EQ NE GT GE LT LE have lower precedence than +, and higher than AND OR XOR
-  macro,       ///< brackets, as on Fanuc; AND has the precedence of *, OR and XOR that of +, comparisons the
-               ///< lowest
-  parentheses  ///< Sinumerik: R1 + 2 * (R2 - 1), SIN(30), R[3], 7 MOD 2, ATAN2(1, 2), == <> < > <= >= AND OR
-               ///< XOR NOT
+  brackets,  ///< G-code: [#1 + 2], SIN[30], #<name>, #[#1 + 1], 2 ** 3, 7 MOD 2, ATAN[1]/[2]; no conditions
+  linuxcnc,  ///< brackets; EQ NE GT GE LT LE have lower precedence than +, and higher than AND OR XOR
+  /// Brackets, as on Fanuc; AND has the precedence of *, OR and XOR that of +, comparisons the lowest.
+  macro,
+  /// Sinumerik: R1 + 2 * (R2 - 1), SIN(30), R[3], 7 MOD 2, ATAN2(1, 2), == <> < > <= >= AND OR XOR NOT.
+  parentheses
 };
 
 /// A value, or the reason why it is unknown.

@@ -44,10 +44,11 @@ struct CycleState {
   std::optional<double> initial;  ///< Z at which the series of cycles began
   bool relative = false;          ///< the sticky words are differences
   bool begun = false;
-  bool left_at_retract = false;  ///< the tool is at the retract plane: after a hole with G99, or at the begin
-                                 ///< of a series without R
-  bool bottom_unknown = false;   ///< Z was programmed in a hole that is not followed or may be skipped: the Z
-                                 ///< that an inserted word would replace is unknown
+  /// The tool is at the retract plane: after a hole with G99, or at the begin of a series without R.
+  bool left_at_retract = false;
+  /// Z was programmed in a hole that is not followed or may be skipped: the Z that an inserted word would
+  /// replace is unknown.
+  bool bottom_unknown = false;
 };
 
 /// Shift and rotation of the coordinates of a work offset by plain numbers.

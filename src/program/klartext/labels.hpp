@@ -31,8 +31,9 @@ struct KlartextOutline {
   /// Blocks that may run never or several times: bodies of called subprograms, repeated parts, and blocks
   /// skipped by a jump; sorted and disjoint.
   std::vector<PlaceStretch> uncertain;
-  std::vector<int> poles;  ///< lines of the CC whose pole is used by blocks that are not followed, so that
-                           ///< it cannot move with the arcs about it; sorted
+  /// Lines of the CC whose pole is used by blocks that are not followed, so that it cannot move with the arcs
+  /// about it; sorted.
+  std::vector<int> poles;
 };
 
 /// Scans a text once, in portions of whole blocks.

@@ -1,7 +1,6 @@
-#include "counterflex/program/rewrite.hpp"
-
 #include <algorithm>
 
+#include "counterflex/program/rewrite.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {

@@ -1,7 +1,6 @@
-#include "counterflex/program/overview.hpp"
-
 #include <algorithm>
 
+#include "counterflex/program/overview.hpp"
 #include "program/text/line_length.hpp"
 
 namespace counterflex {

@@ -20,8 +20,9 @@ struct WrittenCall {
 struct TextState {
   TextPosition position{};
   WrittenCycle cycle{};
-  std::optional<int> restate_motion{};  ///< motion that a block without a motion word must state: that of the
-                                        ///< original, if inserted text may have changed it
+  /// Motion that a block without a motion word must state: that of the original, if inserted text may have
+  /// changed it.
+  std::optional<int> restate_motion{};
   WrittenCall call{};
 };
 

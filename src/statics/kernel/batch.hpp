@@ -27,8 +27,8 @@ struct StartCell {
   std::array<double, 9> R{};         ///< its orientation, row by row
   std::vector<double> state;         ///< as `state_of`
   std::vector<double> cosine, sine;  ///< by joint
-  Polynomials changes;  ///< of the joints, filled up with zeros, of the twists of nodes and platform, of a
-                        ///< target's offset
+  /// Of the joints, filled up with zeros, of the twists of nodes and platform, of a target's offset.
+  Polynomials changes;
 
   bool only_translates = false;  ///< the platform does not turn with the position, to 1e-11 rad in the cell
 
@@ -68,15 +68,15 @@ struct Batch {
 
   unsigned char* accepted = nullptr;
   int* iterations = nullptr;
-  double* contraction =
-      nullptr;  ///< of the real machine's first step, or of both: the second step over the first; 0: none
+  /// Of the real machine's first step, or of both: the second step over the first; 0: none.
+  double* contraction = nullptr;
   double* actuators = nullptr;    ///< commanded values that belong to the solution
   double* tip = nullptr;          ///< of the real machine, 12 each: R row by row, p
   double* nominal_tip = nullptr;  ///< 12 each
   // Of the real machine, or of the nominal one where it is alone:
   double* state = nullptr;  ///< state_size each
-  double* stress =
-      nullptr;  ///< by element: force and moment about its end (N, N m), axes of M; of groups zero
+  /// By element: force and moment about its end (N, N m), axes of M; of groups zero.
+  double* stress = nullptr;
   double* pivots = nullptr;  ///< FlatMachine::pivots each, actuators held; zero: a free joint
   /// First derivatives of the solution by the variables `response_to`: for each of them the step of the
   /// unknowns (joints, then twists about the wanted tip), and of the nominal platform (a twist), if there is

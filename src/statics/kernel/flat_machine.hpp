@@ -33,10 +33,10 @@ struct FrameStep {
   int actuator = -1;     ///< number of the actuator; -1: the joint is free
   double k = 0;          ///< of a free joint: N/m or N m/rad
   double rest = 0;       ///< value without force (m, rad)
-  bool passive =
-      false;  ///< its spring is relaxed in the nominal configuration, as far as preloads do not act
-  int coupling =
-      0;  ///< of a free joint: first of its stored couplings, one for each actuator that is eliminated before
+  /// Its spring is relaxed in the nominal configuration, as far as preloads do not act.
+  bool passive = false;
+  /// Of a free joint: first of its stored couplings, one for each actuator that is eliminated before.
+  int coupling = 0;
   int actuators_before = 0;
 
   bool is_joint() const { return kind == StepKind::slide || kind == StepKind::turn; }

@@ -36,8 +36,8 @@ class Single {
   /// are machines that the kernel does not take, and targets of machines that control nothing.
   SingleAnswer solve(const Mechanism& mechanism, const Waypoint& waypoint, Configuration& configuration);
 
-  /// Of the tangent at an equilibrium. None where the kernel does not take the machine, or where its tangent leaves out too
-  /// much of how weights turn with joints.
+  /// Of the tangent at an equilibrium. None where the kernel does not take the machine, or where its tangent
+  /// leaves out too much of how weights turn with joints.
   std::optional<PivotRange> pivots(const Mechanism& mechanism, const Waypoint& waypoint,
                                    const Configuration& configuration);
 

@@ -14,8 +14,8 @@ inline constexpr int most_actuators_of_series = 12;
 /// A machine, and what acts on it.
 struct Question {
   const FlatMachine* machine = nullptr;
-  const std::vector<Transform>* transforms =
-      nullptr;                                ///< rigid transforms, with as much of the errors as acts
+  /// Rigid transforms, with as much of the errors as acts.
+  const std::vector<Transform>* transforms = nullptr;
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
 };
 

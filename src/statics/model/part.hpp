@@ -36,7 +36,8 @@ void visit_coordinates(const Part& part, const SeriesState& state, const Stage& 
   } else if (part.column >= 0 && part.kind != PartKind::group) {
     const double x = state.x[part.column];
     const double load = part.kind == PartKind::actuator ? 0 : part.k * joint_deflection(part, state, stage);
-    visit(PartCoordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column], load});
+    visit(PartCoordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column],
+                         load});
   }
 }
 

@@ -7,8 +7,8 @@ namespace counterflex {
 struct Problem {
   Load load;
   Stage stage;
-  const Pose* X_MT =
-      nullptr;  ///< where the controlled components of the tip are wanted; none: actuators are held
+  /// Where the controlled components of the tip are wanted; none: actuators are held.
+  const Pose* X_MT = nullptr;
 };
 
 }  // namespace counterflex

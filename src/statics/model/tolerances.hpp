@@ -9,8 +9,8 @@ namespace counterflex {
 // Convergence.
 /// Of every closure; and forces of the kernel may be those of the stiffest spring at it. 1e-13, 1e-11: pass.
 inline constexpr double closure_tolerance = 1e-12;
-inline constexpr double step_tolerance =
-    1e-11;  ///< of the last step's largest component. 1e-12, 1e-10: pass.
+/// Of the last step's largest component. 1e-12, 1e-10: pass.
+inline constexpr double step_tolerance = 1e-11;
 /// Of iterations that converge quadratically. 30: pass; 100: Newton's method finds a state beyond a limit
 /// point, and the test of analyses that states it fails.
 inline constexpr int most_newton_steps = 60;
@@ -21,8 +21,8 @@ inline constexpr double residual_tolerance = 1e-9;
 /// Of a step that need not be taken, by the contraction that was seen or measured.
 inline constexpr double predicted_tolerance = 1e-12;
 /// Chords contract less evenly: they have to be small, too, and tangents complete. With both, answers from
-/// different starts agree to 1e-11 (tests/statics/kernel/kernel_test.cpp); where tangents leave out hanging weights,
-/// 9e-11 were seen.
+/// Different starts agree to 1e-11 (tests/statics/kernel/kernel_test.cpp); where tangents leave out hanging
+/// weights, 9e-11 were seen.
 inline constexpr double small_chord = 1e-9;
 /// Per step of nominal kinematics: a linearisation that does not reach it is made again. 0.01: pass; 0.5: the
 /// test of perfect machines without a load fails.
@@ -36,13 +36,13 @@ inline constexpr double smallest_part = 1.0 / 4096;  ///< of any way. 1/64 and 1
 inline constexpr double same_way = 0.5;
 /// Unless it is off by less than this, in units of l. 1e-6 and 1e-2: fail the same test.
 inline constexpr double jump_floor = 1e-4;
-inline constexpr double largest_step =
-    0.5;  ///< of an actuator in nominal kinematics, l or rad. 0.1 and 2: pass.
+/// Of an actuator in nominal kinematics, l or rad. 0.1 and 2: pass.
+inline constexpr double largest_step = 0.5;
 /// Two ways end there, or two cells have it, in units of l: another branch is further away. Of two ways
 /// alone, 1e-4: pass.
 inline constexpr double same_place = 1e-6;
-inline constexpr double bracket =
-    1e-9;  ///< of the displacement of a critical state: what the header promises
+/// Of the displacement of a critical state: what the header promises.
+inline constexpr double bracket = 1e-9;
 
 // Zero.
 /// Of the largest pivot, in closures, and in stiffnesses where springs up to 1e14 N/m meet soft joints.
@@ -70,8 +70,8 @@ inline constexpr double largest_jacobian_condition = 1e6;
 /// Of pivots: what elimination hides is far below the largest condition. 1e9: the test of a
 /// pendulum on a free joint fails.
 inline constexpr double proving_ratio = 1e6;
-inline constexpr double clear_eigenvalue =
-    1e-3;  ///< further from zero than any solution's errors. 1e-5, 0.1: pass.
+/// Further from zero than any solution's errors. 1e-5, 0.1: pass.
+inline constexpr double clear_eigenvalue = 1e-3;
 /// N/m: what is stiffer counts as this, and hides no condition. 1e7: pass; 1e11: the test of a
 /// strut beside a stiff spring fails.
 inline constexpr double stiff_enough = 1e9;

@@ -7,8 +7,8 @@ namespace counterflex {
 struct NewtonResult {
   bool converged = false;
   int iterations = 0;
-  bool jumped = false;  ///< platform or actuators ended elsewhere than the tangent at the start leads: by
-                        ///< more than half
+  /// Platform or actuators ended elsewhere than the tangent at the start leads: by more than half.
+  bool jumped = false;
 };
 
 /// On success `configuration` is the solution. The works of the chains are not evaluated.

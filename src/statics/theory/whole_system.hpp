@@ -27,8 +27,8 @@ struct WholeSystem {
   Eigen::VectorXd gradient, gap;
   int pose = 0;       ///< first of the platform's variables
   double wrench = 0;  ///< largest that acts or is carried, at least 1 N; without unit
-  double force_error =
-      0;  ///< how far the forces are from balance, at most what a solution may miss; without unit
+  /// How far the forces are from balance, at most what a solution may miss; without unit.
+  double force_error = 0;
 };
 
 /// The platform's balance: sum of chain wrenches minus applied wrench, and the applied wrench's tangent.

@@ -1,8 +1,8 @@
-#include "counterflex/program/overview.hpp"
-
 #include <doctest/doctest.h>
 
 #include <string>
+
+#include "counterflex/program/overview.hpp"
 
 using namespace counterflex;
 

@@ -2,8 +2,8 @@
 /// unstable, and what not, against a judge that shares no code with it.
 #include <fmt/format.h>
 
-#include "statics/support/laws_support.hpp"
 #include "statics/support/independent_judge.hpp"
+#include "statics/support/laws_support.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
