@@ -34,8 +34,8 @@ struct FileHash {
 };
 
 struct JobOutcome {
-  std::string
-      key;  ///< SHA-256 of what decides the outputs besides the bytes of the inputs: version and options
+  /// SHA-256 of what decides the outputs besides the bytes of the inputs: version and options.
+  std::string key;
   std::string program;  ///< path of the original
   std::string output;   ///< path of the corrected program, which no other job of the batch has
   Exit exit = Exit::done;

@@ -25,9 +25,9 @@ struct Compensation {
   std::string text;                 ///< the corrected program
   Program corrected;                ///< `text`, read again
   std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text; of windows that are not given out
-  std::vector<LeftAlone>
-      left_alone;    ///< what the plan could not correct or split, besides the program's own list
-  Rewritten counts;  ///< its text is moved to `text`
+  /// What the plan could not correct or split, besides the program's own list.
+  std::vector<LeftAlone> left_alone;
+  Rewritten counts;                 ///< its text is moved to `text`
   std::size_t corrected_moves = 0;  ///< each on its own
   OtherMoves other_moves;
   double largest_correction = 0;  ///< m

@@ -89,8 +89,8 @@ struct ForceSource {
   /// m; what acts is the mean over the last min(blend, half of the feed run) of feed path.
   double blend = 2e-3;
   double scale = 1.0;
-  std::optional<double>
-      air_above_mm{};  ///< Z of program coordinates: feed moves wholly above it carry no force
+  /// Z of program coordinates: feed moves wholly above it carry no force.
+  std::optional<double> air_above_mm{};
 };
 
 /// Whether the wrenches act at the platform's reference point instead of the tip: all that are not zero do.

@@ -143,8 +143,8 @@ enum class ToolStiffness { rigid, radial, matrix, cantilever };
 
 /// The data of a tool in the machine file, and how its tip deflects.
 struct Tool {
-  std::optional<double>
-      length{};  ///< m: what G43 H adds to Z; from [spindle] to the tip, where that is given
+  /// What G43 H adds to Z (m): from [spindle] to the tip, where that is given.
+  std::optional<double> length{};
   std::optional<double> diameter{};  ///< m
   std::optional<double> stickout{};  ///< m
   std::optional<double> flute{};     ///< m: from the tip to the end of the cutting edges, along the axis

@@ -36,8 +36,8 @@ struct RunFacts {
   std::string version;  ///< of the tool
   std::vector<InputFile> inputs;
   std::vector<OptionValue> options;
-  std::vector<Remark>
-      warnings;                 ///< besides the program's remarks and the forces' notes, which are added here
+  /// Besides the program's remarks and the forces' notes, which are added here.
+  std::vector<Remark> warnings;
   std::string output;           ///< path of the corrected program; empty: no program is written
   bool accept_partial = false;  ///< PARTLY does not count as a failure
   double min_block_ms = 2;      ///< what takes less time is a short block
@@ -215,12 +215,13 @@ struct RunReport {
   std::optional<Sources> sources;             ///< with attribution
   std::optional<SourcesAtWorst> at_worst;     ///< where `before` is largest
   std::optional<Sensitivity> sensitivity;     ///< where a force acts
-  std::optional<Largest>
-      air;  ///< largest deviation of a feed move of the corrected program without the force
+  /// Largest deviation of a feed move of the corrected program without the force.
+  std::optional<Largest> air;
   std::optional<CommonShift> common_shift;  ///< none: all datums are stated, or nothing was solved
   std::vector<ToolReport> tools_off;        ///< tools of feed moves, the largest deviation first
   std::optional<Largest> correction;        ///< largest change of a target
-  std::optional<double> corrected_percent;  ///< of `path_mm`: what is corrected and held to the tolerance
+  /// Of `path_mm`: the part that is corrected, within the tolerance.
+  std::optional<double> corrected_percent;
   /// In the order in which they are met; of many the last one represents all others.
   std::vector<OperationReport> operations;
   ShownUnits units;

@@ -45,8 +45,8 @@ struct Series {
   int columns = 0;             ///< all coordinates and actuators, in order from start to end
   std::vector<int> free;       ///< columns that equilibrium determines (all but actuators)
   std::vector<int> commanded;  ///< columns of this series' own actuators
-  std::vector<int>
-      actuators;  ///< numbers of all actuators in it, those of its groups' branches included, ascending
+  /// Numbers of all actuators in it, those of its groups' branches included, ascending.
+  std::vector<int> actuators;
   std::vector<bool> angular;  ///< by column: rad (else m)
   int masses = 0;             ///< point masses in it, those of branches not counted
   double mass = 0;            ///< kg, those of branches included

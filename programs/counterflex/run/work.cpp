@@ -89,8 +89,10 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
   if (found == machine.work.end())
     throw InputError(
         Exit::machine_or_force, {machine_file},
-        fmt::format("no [work.{}], which the program {}; the offsets are {} (--work gives others)", name,
-                    selected.empty() ? "starts with" : "selects", names(machine.work)));
+        fmt::format(
+            "no [work.{0}], which the program {1}; the offsets are {2}. Add [work.{0}], or give --work "
+            "{0}=X,Y,Z/DATUM",
+            name, selected.empty() ? "starts with" : "selects", names(machine.work)));
   WorkFrame frame{name, found->second.X_MW};
   if (const auto& touched = found->second.datum.touched_at)
     frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);

@@ -11,8 +11,8 @@
 namespace counterflex::cli {
 
 struct WorkPlace {
-  std::vector<WorkFrame>
-      frames;  ///< by index into Program::frames; without names if the machine has no table of offsets
+  /// By index into Program::frames; without names if the machine has no table of offsets.
+  std::vector<WorkFrame> frames;
   /// For a warning: moves before an offset is selected, several offsets without a table; or empty.
   std::string assumption;
 };

@@ -51,8 +51,8 @@ class RuleIndex {
   Named operations_, beginnings_;
   std::unordered_map<long, std::vector<const ForceRule*>> tools_;
   std::vector<const ForceRule*> all_;
-  std::unordered_map<const ForceRule*, std::string>
-      folded_operations_;  ///< operations of rules for places, folded
+  /// Operations of rules for places, folded.
+  std::unordered_map<const ForceRule*, std::string> folded_operations_;
 };
 
 /// Whether an operation's text matches a selector, both folded.

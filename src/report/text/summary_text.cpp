@@ -33,7 +33,8 @@ std::string headline(const RunReport& report, const Ink& ink) {
 }
 
 std::string causes_text(const SourcesAtWorst& at) {
-  std::string text = fmt::format("assembly {}, force {}", mm4(at.geometry_mm.norm()), mm4(at.load_mm.norm()));
+  std::string text = "assembly " + mm4(at.geometry_mm.norm());
+  if (!at.load_mm.isZero()) text += ", force " + mm4(at.load_mm.norm());
   if (!at.gravity_mm.isZero()) text += ", weight " + mm4(at.gravity_mm.norm());
   if (!at.preloads_mm.isZero(1e-9)) text += ", preloads " + mm4(at.preloads_mm.norm());
   return text;

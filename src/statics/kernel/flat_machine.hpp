@@ -96,8 +96,8 @@ struct FlatMachine {
   std::vector<Weight> weights;
   std::vector<Weights> weights_of_node;  ///< by node
   std::vector<int> actuator_joint;       ///< by actuator: its joint
-  std::vector<double>
-      actuator_offset;            ///< by actuator: what the controller's zero adds while weights act (m, rad)
+  /// By actuator: what the controller's zero adds while weights act (m, rad).
+  std::vector<double> actuator_offset;
   std::vector<char> joint_turns;  ///< by joint
   int chains = 0, joints = 0, nodes = 0, couplings = 0;
   int most_actuators = 0;            ///< of one series
