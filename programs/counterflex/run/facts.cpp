@@ -41,8 +41,8 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
 RunFacts facts_of(const Options& options, const Run& run) {
   RunFacts facts;
   facts.version = version;
-  // Causes take several times as long as everything else in `compensate`; only the other commands compute
-  // them always.
+  // Causes along the path take about as long as everything else in `compensate`; only the other commands
+  // compute them always.
   facts.attribution =
       options.command != Command::compensate || options.json || options.report || options.plot;
   facts.inputs = {run.file.file, run.machine.file};
