@@ -3,6 +3,7 @@
 
 #include "commands/commands.hpp"
 #include "counterflex/report/formats.hpp"
+#include "process/exit_status.hpp"
 #include "process/guarded.hpp"
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
@@ -15,17 +16,20 @@ namespace {
 
 /// Prints the verdict FAILED for a run whose inputs could not be read, unless standard output is for the
 /// program.
-Exit judged(counterflex::Command command, Exit (*run)(const Options&, Console&), const Options& options,
-            Console& console) {
+std::optional<ErrorKind> judged(counterflex::Command command,
+                                std::optional<ErrorKind> (*run)(const Options&, Console&),
+                                const Options& options, Console& console) {
   try {
     return run(options, console);
   } catch (const InputError& error) {
-    if (options.output != "-") write_result(options.json ? failed_json(command, version, error) : "FAILED\n");
+    if (options.output != "-")
+      write_result(options.json ? failed_json(command, version, error, exit_number(error.kind()))
+                                : "FAILED\n");
     throw;
   }
 }
 
-Exit run_command(const Options& options, Console& console) {
+ExitStatus run_command(const Options& options, Console& console) {
   using Judged = counterflex::Command;
   switch (options.command) {
     case Command::compensate:
@@ -47,14 +51,14 @@ Exit run_command(const Options& options, Console& console) {
     case Command::watch:
       return run_watch(options, console);
   }
-  return Exit::internal;
+  return ExitStatus(ErrorKind::internal);
 }
 
-Exit run(int argc, char** argv) {
+ExitStatus run(int argc, char** argv) {
   Console plain;
-  return guarded(plain, [&] {
+  return guarded(plain, [&]() -> ExitStatus {
     const auto command_line = read_command_line(argc, argv);
-    if (const Exit* exit = std::get_if<Exit>(&command_line)) return *exit;
+    if (const auto* ended = std::get_if<std::optional<ErrorKind>>(&command_line)) return *ended;
     const Options& options = std::get<Options>(command_line);
     Console console({options.quiet, options.verbose});
     for (const SettingRemark& remark : options.remarks)
@@ -79,5 +83,5 @@ void keep_freed_memory() {
 int main(int argc, char** argv) {
   counterflex::cli::end_on_signals();
   counterflex::cli::keep_freed_memory();
-  return static_cast<int>(counterflex::cli::run(argc, argv));
+  return counterflex::cli::run(argc, argv).number();
 }

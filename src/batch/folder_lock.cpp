@@ -20,7 +20,7 @@ constexpr std::size_t longest_text = 1000;
 
 // A read-only file system is a lasting error.
 [[noreturn]] void fail_locking(const std::string& folder, int error, const std::string& reason) {
-  throw InputError(error == EROFS ? Exit::usage : Exit::transient_io, {folder},
+  throw InputError(error == EROFS ? ErrorKind::usage : ErrorKind::transient_io, {folder},
                    "cannot lock the folder: " + reason);
 }
 
@@ -76,7 +76,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
   const std::string other = error == EWOULDBLOCK ? holder(fd_) : "";
   if (why_not_.empty()) ::close(std::exchange(fd_, -1));
   if (error == EWOULDBLOCK)
-    throw InputError(Exit::transient_io, {folder},
+    throw InputError(ErrorKind::transient_io, {folder},
                      fmt::format("another run is active in this folder: {}", other));
   if (why_not_.empty()) fail_locking(folder, error, std::strerror(error));
 }

@@ -17,6 +17,11 @@ struct LineTrouble {
 
 /// Accepts only lines as `to_json_line` writes them, byte for byte: writing a line that was read reproduces
 /// it.
-std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line);
+std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line, ExitStatusOf exit_status);
+
+/// The exit status of a job; 0 without an error.
+inline int exit_number(const std::optional<ErrorKind>& error, ExitStatusOf exit_status) {
+  return error ? exit_status(*error) : 0;
+}
 
 }  // namespace counterflex

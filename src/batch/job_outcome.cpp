@@ -10,6 +10,10 @@ namespace {
 
 using LineJson = nlohmann::ordered_json;
 
+struct UnknownStatus {
+  int number;
+};
+
 LineJson json_of(const std::vector<FileHash>& files) {
   LineJson list = LineJson::array();
   for (const FileHash& file : files)
@@ -38,12 +42,21 @@ std::optional<double> number_at(const LineJson& object, const char* key) {
   return value.get<double>();
 }
 
-JobOutcome outcome_from(const LineJson& object) {
+/// The error of a job that ended with the exit status `number`. Throws `UnknownStatus` for a number that no
+/// kind of error has.
+std::optional<ErrorKind> error_of_number(int number, ExitStatusOf exit_status) {
+  if (number == 0) return std::nullopt;
+  for (const ErrorKind kind : error_kinds)
+    if (exit_status(kind) == number) return kind;
+  throw UnknownStatus{number};
+}
+
+JobOutcome outcome_from(const LineJson& object, ExitStatusOf exit_status) {
   JobOutcome outcome;
   outcome.key = text_at(object, "key");
   outcome.program = text_at(object, "program");
   outcome.output = text_at(object, "output");
-  outcome.exit = static_cast<Exit>(object.at("exit").get<int>());
+  outcome.error_kind = error_of_number(object.at("exit").get<int>(), exit_status);
   outcome.verdict = text_at(object, "verdict");
   outcome.verdict_reason = text_at(object, "verdict_reason");
   outcome.error = text_at(object, "error");
@@ -76,12 +89,12 @@ std::string without_name(const LineJson::exception& error) {
 
 }  // namespace
 
-std::string to_json_line(const JobOutcome& outcome) {
+std::string to_json_line(const JobOutcome& outcome, ExitStatusOf exit_status) {
   LineJson object;
   object["key"] = utf8_of_bytes(outcome.key);
   object["program"] = utf8_of_bytes(outcome.program);
   object["output"] = utf8_of_bytes(outcome.output);
-  object["exit"] = static_cast<int>(outcome.exit);
+  object["exit"] = exit_number(outcome.error_kind, exit_status);
   object["verdict"] = utf8_of_bytes(outcome.verdict);
   object["verdict_reason"] = utf8_of_bytes(outcome.verdict_reason);
   object["error"] = utf8_of_bytes(outcome.error);
@@ -95,23 +108,26 @@ std::string to_json_line(const JobOutcome& outcome) {
   return object.dump();
 }
 
-std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line) {
+std::variant<JobOutcome, LineTrouble> read_job_line(std::string_view line, ExitStatusOf exit_status) {
   try {
-    JobOutcome outcome = outcome_from(LineJson::parse(line));
-    const std::string written = to_json_line(outcome);
+    JobOutcome outcome = outcome_from(LineJson::parse(line), exit_status);
+    const std::string written = to_json_line(outcome, exit_status);
     if (written == line) return outcome;
     return LineTrouble{first_difference(line, written), "the line is not as counterflex writes it"};
   } catch (const LineJson::parse_error& error) {
     return LineTrouble{std::max<std::size_t>(error.byte, 1), "the line is not JSON: " + without_name(error)};
   } catch (const LineJson::exception& error) {
     return LineTrouble{1, "the line is not that of a job: " + without_name(error)};
+  } catch (const UnknownStatus& unknown) {
+    return LineTrouble{
+        1, fmt::format("the line is not that of a job: no job ends with exit status {}", unknown.number)};
   }
 }
 
-JobOutcome outcome_of(std::string_view line) {
-  auto read = read_job_line(line);
+JobOutcome outcome_of(std::string_view line, ExitStatusOf exit_status) {
+  auto read = read_job_line(line, exit_status);
   if (const auto* trouble = std::get_if<LineTrouble>(&read))
-    throw InputError(Exit::internal, {},
+    throw InputError(ErrorKind::internal, {},
                      fmt::format("the outcome of a job cannot be read: {}", trouble->what));
   return std::get<JobOutcome>(std::move(read));
 }

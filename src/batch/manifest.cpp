@@ -40,7 +40,7 @@ class ManifestLines {
   int line() const { return line_; }
 
   [[noreturn]] void refuse(std::size_t column, const std::string& what) const {
-    throw InputError(Exit::machine_or_force, {file_, line_, static_cast<int>(column)},
+    throw InputError(ErrorKind::machine_or_force, {file_, line_, static_cast<int>(column)},
                      what +
                          "; nothing was changed; to run the jobs of this manifest again, remove it or run "
                          "without --resume");
@@ -79,8 +79,8 @@ Manifest read_head(ManifestLines& lines) {
   return manifest;
 }
 
-JobOutcome read_job(std::string_view line, const ManifestLines& lines) {
-  auto read = read_job_line(line);
+JobOutcome read_job(std::string_view line, const ManifestLines& lines, ExitStatusOf exit_status) {
+  auto read = read_job_line(line, exit_status);
   if (const auto* trouble = std::get_if<LineTrouble>(&read)) lines.refuse(trouble->column, trouble->what);
   return std::get<JobOutcome>(std::move(read));
 }
@@ -92,12 +92,12 @@ std::set<std::string> written_by(const JobOutcome& job) {
   return paths;
 }
 
-void read_jobs(ManifestLines& lines, Manifest& manifest) {
+void read_jobs(ManifestLines& lines, Manifest& manifest, ExitStatusOf exit_status) {
   std::set<std::string> written;
   std::string_view line = lines.next();
   for (bool is_last = line == end_of_jobs; !is_last; line = lines.next()) {
     is_last = !line.ends_with(',');
-    manifest.jobs.push_back(read_job(is_last ? line : line.substr(0, line.size() - 1), lines));
+    manifest.jobs.push_back(read_job(is_last ? line : line.substr(0, line.size() - 1), lines, exit_status));
     for (const std::string& path : written_by(manifest.jobs.back()))
       if (!written.insert(path).second)
         lines.refuse(1, fmt::format("two jobs write {}", utf8_of_bytes(path)));
@@ -123,20 +123,20 @@ void check_sum(ManifestLines& lines, std::string_view text) {
 
 }  // namespace
 
-std::string to_text(const Manifest& manifest) {
+std::string to_text(const Manifest& manifest, ExitStatusOf exit_status) {
   std::string text = first_line(manifest.version, manifest.plan) + '\n';
   for (const JobOutcome& job : manifest.jobs) {
-    text += to_json_line(job);
+    text += to_json_line(job, exit_status);
     text += &job == &manifest.jobs.back() ? "\n" : ",\n";
   }
   text += fmt::format("{}\n", end_of_jobs);
   return text + fmt::format("{}{}{}\n", beginning_of_sum, sha256(text), end_of_sum);
 }
 
-Manifest read_manifest(std::string_view text, const std::string& file) {
+Manifest read_manifest(std::string_view text, const std::string& file, ExitStatusOf exit_status) {
   ManifestLines lines(text, file);
   Manifest manifest = read_head(lines);
-  read_jobs(lines, manifest);
+  read_jobs(lines, manifest, exit_status);
   check_sum(lines, text);
   return manifest;
 }

@@ -29,7 +29,7 @@ const std::optional<std::string>& FileHashes::of(const std::string& path) {
 
 bool is_proven(const JobOutcome& recorded, const std::string& key, FileHashes& on_disk) {
   const auto is_as_recorded = [&](const FileHash& file) { return on_disk.of(file.path) == file.sha256; };
-  return recorded.exit == Exit::done && recorded.key == key && !recorded.inputs.empty() &&
+  return !recorded.error_kind && recorded.key == key && !recorded.inputs.empty() &&
          !recorded.outputs.empty() && std::ranges::all_of(recorded.inputs, is_as_recorded) &&
          std::ranges::all_of(recorded.outputs, is_as_recorded);
 }

@@ -29,7 +29,7 @@ Shard read_shard(std::string_view text) {
   const auto count = slash == std::string_view::npos ? std::nullopt : whole_number(text.substr(slash + 1));
   if (!index || !count || *index < 1 || *count < *index || *count > most_shards)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("a shard is '{}', must be I/N with I from 1 to N, and N at most {}", text, most_shards));
   return {*index, *count};
 }

@@ -6,6 +6,7 @@
 #include <tuple>
 #include <utility>
 
+#include "batch/job_line.hpp"
 #include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/text.hpp"
 
@@ -15,7 +16,7 @@ namespace {
 constexpr int shown_digits = 6;  // of a length in mm: hides rounding noise
 
 bool is_done(const JobOutcome& outcome) {
-  return outcome.exit == Exit::done;
+  return !outcome.error_kind;
 }
 
 /// Whether its program was written though it is not within the tolerance everywhere.
@@ -43,14 +44,14 @@ Document files_of(const std::vector<FileHash>& files) {
   return list;
 }
 
-Document job_of(const JobOutcome& outcome) {
+Document job_of(const JobOutcome& outcome, ExitStatusOf exit_status) {
   Document job;
   job["program"] = utf8_of_bytes(outcome.program);
   job["output"] = utf8_of_bytes(outcome.output);
   job["verdict"] = outcome.verdict;
   job["verdict_reason"] = outcome.verdict_reason;
   job["status"] = status_text(outcome);
-  job["exit_status"] = static_cast<int>(outcome.exit);
+  job["exit_status"] = exit_number(outcome.error_kind, exit_status);
   job["error"] = outcome.error.empty() ? Document() : Document(outcome.error);
   job["before_mm"] = number_or_null(outcome.before_mm, shown_digits);
   job["after_mm"] = number_or_null(outcome.after_mm, shown_digits);
@@ -93,9 +94,9 @@ std::string heading() {
 
 }  // namespace
 
-bool fails_again(Exit exit) {
-  return exit == Exit::program_text || exit == Exit::machine_or_force || exit == Exit::not_compensated ||
-         exit == Exit::limit;
+bool fails_again(ErrorKind error) {
+  return error == ErrorKind::program_text || error == ErrorKind::machine_or_force ||
+         error == ErrorKind::not_compensated || error == ErrorKind::limit;
 }
 
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes) {
@@ -111,26 +112,23 @@ std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes) {
   return outcomes;
 }
 
-std::string_view status_text(Exit exit) {
-  switch (exit) {
-    case Exit::done:
-      return "done";
-    case Exit::internal:
+std::string_view status_text(const std::optional<ErrorKind>& error) {
+  if (!error) return "done";
+  switch (*error) {
+    case ErrorKind::internal:
       return "internal error";
-    case Exit::usage:
+    case ErrorKind::usage:
       return "cannot be run";
-    case Exit::program_text:
+    case ErrorKind::program_text:
       return "program refused";
-    case Exit::machine_or_force:
+    case ErrorKind::machine_or_force:
       return "machine or force file";
-    case Exit::not_compensated:
+    case ErrorKind::not_compensated:
       return "not within tolerance";
-    case Exit::limit:
+    case ErrorKind::limit:
       return "limit exceeded";
-    case Exit::transient_io:
+    case ErrorKind::transient_io:
       return "input or output";
-    case Exit::interrupted:
-      return "interrupted";
   }
   return "failed";
 }
@@ -138,17 +136,16 @@ std::string_view status_text(Exit exit) {
 std::string_view status_text(const JobOutcome& outcome) {
   if (is_partly(outcome)) return "partly accepted";
   if (outcome.verdict == "NOTHING CORRECTED") return "nothing corrected";
-  return outcome.verdict == "PARTLY" ? "partly, not accepted" : status_text(outcome.exit);
+  return outcome.verdict == "PARTLY" ? "partly, not accepted" : status_text(outcome.error_kind);
 }
 
-Exit exit_of(const std::vector<JobOutcome>& outcomes) {
-  Exit worst = Exit::done;
+std::optional<ErrorKind> error_of(const std::vector<JobOutcome>& outcomes) {
+  std::optional<ErrorKind> first;
   for (const JobOutcome& outcome : outcomes) {
-    if (outcome.exit == Exit::transient_io) return Exit::transient_io;
-    if (is_done(outcome)) continue;
-    worst = is_done({.exit = worst}) ? outcome.exit : std::min(worst, outcome.exit);
+    if (outcome.error_kind == ErrorKind::transient_io) return ErrorKind::transient_io;
+    if (!is_done(outcome)) first = std::min(first.value_or(*outcome.error_kind), *outcome.error_kind);
   }
-  return worst;
+  return first;
 }
 
 std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t most_rows) {
@@ -170,7 +167,8 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
   return text;
 }
 
-std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version) {
+std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version,
+                         ExitStatusOf exit_status) {
   const std::size_t written = count_done(outcomes), partly = count_partly(outcomes);
   Document document;
   document["schema"] = "counterflex-batch 1";
@@ -179,21 +177,22 @@ std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_vi
                         {"done", written - partly},
                         {"partly", partly},
                         {"failed", outcomes.size() - written}};
-  document["exit_status"] = static_cast<int>(exit_of(outcomes));
+  document["exit_status"] = exit_number(error_of(outcomes), exit_status);
   document["jobs"] = Document::array();
-  for (const JobOutcome& outcome : worst_first(outcomes)) document["jobs"].push_back(job_of(outcome));
+  for (const JobOutcome& outcome : worst_first(outcomes))
+    document["jobs"].push_back(job_of(outcome, exit_status));
   return document.dump(2, ' ', false, Document::error_handler_t::replace) + "\n";
 }
 
-std::string summary_csv(const std::vector<JobOutcome>& outcomes) {
+std::string summary_csv(const std::vector<JobOutcome>& outcomes, ExitStatusOf exit_status) {
   std::string text = std::string(summary_columns) + "\n";
   for (const JobOutcome& outcome : worst_first(outcomes))
-    text += fmt::format("{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program),
-                        csv_field(outcome.output), csv_field(status_text(outcome)),
-                        static_cast<int>(outcome.exit), fixed_or(outcome.before_mm, shown_digits, ""),
-                        fixed_or(outcome.after_mm, shown_digits, ""),
-                        fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves,
-                        csv_field(outcome.error), outcome.verdict, csv_field(outcome.verdict_reason));
+    text += fmt::format(
+        "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program), csv_field(outcome.output),
+        csv_field(status_text(outcome)), exit_number(outcome.error_kind, exit_status),
+        fixed_or(outcome.before_mm, shown_digits, ""), fixed_or(outcome.after_mm, shown_digits, ""),
+        fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves, csv_field(outcome.error),
+        outcome.verdict, csv_field(outcome.verdict_reason));
   return text;
 }
 

@@ -26,22 +26,22 @@ bool is_of_path(int error) {
 
 void fail_reading(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  const Exit exit = is_of_path(errno) ? Exit::usage : Exit::transient_io;
-  if (path == "-") throw InputError(exit, {}, "cannot read standard input: " + reason);
-  throw InputError(exit, {path, 0, 0}, "cannot read the file: " + reason);
+  const ErrorKind kind = is_of_path(errno) ? ErrorKind::usage : ErrorKind::transient_io;
+  if (path == "-") throw InputError(kind, {}, "cannot read standard input: " + reason);
+  throw InputError(kind, {path, 0, 0}, "cannot read the file: " + reason);
 }
 
-Exit exit_of_writing(int error) {
+ErrorKind kind_of_writing(int error) {
   const bool lasting =
       is_of_path(error) || error == EROFS || error == EEXIST || error == ENXIO;  // ENXIO: no reader
-  return lasting ? Exit::usage : Exit::transient_io;
+  return lasting ? ErrorKind::usage : ErrorKind::transient_io;
 }
 
 void fail_writing(const std::string& path) {
   const std::string reason = std::strerror(errno);
-  const Exit exit = exit_of_writing(errno);
-  if (path == "-") throw InputError(exit, {}, "cannot write standard output: " + reason);
-  throw InputError(exit, {path, 0, 0}, "cannot write the file: " + reason);
+  const ErrorKind kind = kind_of_writing(errno);
+  if (path == "-") throw InputError(kind, {}, "cannot write standard output: " + reason);
+  throw InputError(kind, {path, 0, 0}, "cannot write the file: " + reason);
 }
 
 bool write_all(int fd, std::string_view bytes) {

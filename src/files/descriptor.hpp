@@ -10,13 +10,13 @@
 
 namespace counterflex {
 
-/// Throws `InputError` with the reason in errno: Exit::usage if `path` or its file must be changed (missing
-/// folder, name too long, read-only file system), else Exit::transient_io (disk failure).
+/// Throws `InputError` with the reason in errno: ErrorKind::usage if `path` or its file must be changed
+/// (missing folder, name too long, read-only file system), else ErrorKind::transient_io (disk failure).
 [[noreturn]] void fail_reading(const std::string& path);
 [[noreturn]] void fail_writing(const std::string& path);
 
 /// Interprets `errno` after a write.
-Exit exit_of_writing(int error);
+ErrorKind kind_of_writing(int error);
 
 /// Size of a read or a write, in bytes.
 inline constexpr std::size_t portion = 1 << 18;

@@ -113,7 +113,8 @@ void FileReader::refuse_change() const {
   const struct stat& then = *state_->opened;
   const bool same = ::fstat(state_->file.get(), &now) == 0 && now.st_size == then.st_size &&
                     now.st_mtim.tv_sec == then.st_mtim.tv_sec && now.st_mtim.tv_nsec == then.st_mtim.tv_nsec;
-  if (!same) throw InputError(Exit::transient_io, {state_->path}, "the file was changed while it was read");
+  if (!same)
+    throw InputError(ErrorKind::transient_io, {state_->path}, "the file was changed while it was read");
 }
 
 void FileReader::hash_along() {

@@ -110,7 +110,7 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
   } else {
     std::error_code ignored;
     if (!exists && std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored)))
-      throw InputError(Exit::usage, {path},
+      throw InputError(ErrorKind::usage, {path},
                        "is a symbolic link to a file that does not exist, or to itself; remove it, or give "
                        "another name");
     state_->target = exists ? std::filesystem::canonical(path, ignored).string() : path;

@@ -15,7 +15,7 @@ namespace counterflex {
 namespace {
 
 [[noreturn]] void fail_at_folder(const std::string& folder, const char* what) {
-  throw InputError(exit_of_writing(errno), {folder},
+  throw InputError(kind_of_writing(errno), {folder},
                    fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
 }
 

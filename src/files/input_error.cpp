@@ -16,7 +16,7 @@ std::string located(const Location& where, const std::string& message) {
 
 }  // namespace
 
-InputError::InputError(Exit exit, const Location& where, const std::string& message)
-    : std::runtime_error(without_controls(located(where, message))), exit_(exit), where_(where) {}
+InputError::InputError(ErrorKind kind, const Location& where, const std::string& message)
+    : std::runtime_error(without_controls(located(where, message))), kind_(kind), where_(where) {}
 
 }  // namespace counterflex

@@ -10,7 +10,7 @@ namespace counterflex {
 namespace {
 
 [[noreturn]] void fail_keeping() {
-  throw InputError(Exit::transient_io, {},
+  throw InputError(ErrorKind::transient_io, {},
                    std::string("cannot keep what was read in a temporary file: ") + std::strerror(errno));
 }
 

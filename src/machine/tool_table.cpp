@@ -40,7 +40,7 @@ class ToolLine {
   }
 
   [[noreturn]] void fail(std::size_t at, const std::string& message) const {
-    throw InputError(Exit::machine_or_force, {file_, line_, static_cast<int>(at) + 1}, message);
+    throw InputError(ErrorKind::machine_or_force, {file_, line_, static_cast<int>(at) + 1}, message);
   }
 
   std::optional<long> tool;

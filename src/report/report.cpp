@@ -193,19 +193,19 @@ std::string reason_of(const RunReport& report) {
 }
 
 // A prediction writes no program: unknown positions are not a failure.
-Exit status_of(const RunReport& report) {
+std::optional<ErrorKind> error_of(const RunReport& report) {
   switch (report.verdict) {
     case Verdict::ok:
-      return Exit::done;
+      return std::nullopt;
     case Verdict::partly:
-      return report.facts.accept_partial || report.command == Command::predict ? Exit::done
-                                                                               : Exit::not_compensated;
+      if (report.facts.accept_partial || report.command == Command::predict) return std::nullopt;
+      return ErrorKind::not_compensated;
     case Verdict::nothing_corrected:
-      return Exit::program_text;
+      return ErrorKind::program_text;
     case Verdict::failed:
       break;
   }
-  return report.failure ? report.failure->exit : Exit::internal;
+  return report.failure ? report.failure->kind : ErrorKind::internal;
 }
 
 void add_verdict(RunReport& report, const RunTally& tally) {
@@ -216,8 +216,8 @@ void add_verdict(RunReport& report, const RunTally& tally) {
   }
   report.verdict = report.failure ? Verdict::failed : verdict_of(report.feed_moves);
   report.verdict_reason = reason_of(report);
-  report.exit = status_of(report);
-  if (report.exit != Exit::done) report.facts.output.clear();
+  report.error_kind = error_of(report);
+  if (report.error_kind) report.facts.output.clear();
 }
 
 }  // namespace
@@ -229,12 +229,12 @@ double CommonShift::largest_mm() const {
 }
 
 std::optional<Failure> refusal_of(const RunReport& report) {
-  if (report.failure || report.exit == Exit::done) return std::nullopt;
+  if (report.failure || !report.error_kind) return std::nullopt;
   const std::string_view end =
       report.command == Command::compensate ? "; no corrected program was written" : "";
   if (report.verdict == Verdict::nothing_corrected)
-    return Failure{report.exit, 0, fmt::format("NOTHING CORRECTED: {}{}", report.verdict_reason, end)};
-  return Failure{report.exit, report.feed_moves.missed > 0 ? report.feed_moves.worst_line : 0,
+    return Failure{*report.error_kind, 0, fmt::format("NOTHING CORRECTED: {}{}", report.verdict_reason, end)};
+  return Failure{*report.error_kind, report.feed_moves.missed > 0 ? report.feed_moves.worst_line : 0,
                  fmt::format("{}{}; give --accept-partial to accept this{}",
                              verdict_text(report.verdict, report.verdict_reason), end,
                              report.feed_moves.missed > 0 ? ", or a larger --tolerance-mm" : "")};

@@ -44,7 +44,7 @@ void refuse_special_file(const std::string& file) {
   std::error_code ignored;
   const fs::file_status status = fs::status(file, ignored);
   if (!fs::exists(status) || fs::is_regular_file(status) || fs::is_directory(status)) return;
-  throw InputError(Exit::machine_or_force, {file},
+  throw InputError(ErrorKind::machine_or_force, {file},
                    "cannot read the file: it is a pipe or a device, and must be a regular file");
 }
 

@@ -87,7 +87,7 @@ void refuse_other_bytes(const Setting& setting) {
     const bool of_file = setting.origin == Origin::file;
     const std::string name =
         shown_option(setting.option, setting.origin == Origin::flag ? Origin::flag : Origin::file);
-    throw InputError(of_file ? Exit::machine_or_force : Exit::usage, place_of(setting, i),
+    throw InputError(of_file ? ErrorKind::machine_or_force : ErrorKind::usage, place_of(setting, i),
                      fmt::format("{} is '{}', whose bytes are not UTF-8, as a project file must be", name,
                                  in_one_line(setting.values[i])));
   }

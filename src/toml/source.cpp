@@ -27,8 +27,8 @@ toml::table Source::parse() const {
   if (const auto deep = find_too_deep(text_)) {
     const auto after = std::upper_bound(line_starts_.begin(), line_starts_.end(), deep->offset);
     const auto column = static_cast<int>(deep->offset - *(after - 1)) + 1;
-    throw InputError(Exit::machine_or_force, {file_, static_cast<int>(after - line_starts_.begin()), column},
-                     deep->what);
+    throw InputError(ErrorKind::machine_or_force,
+                     {file_, static_cast<int>(after - line_starts_.begin()), column}, deep->what);
   }
   try {
     return toml::parse(text_);
@@ -53,7 +53,7 @@ Location Source::at(const toml::source_region& region) const {
 }
 
 void Source::fail(const toml::source_region& region, const std::string& message) const {
-  throw InputError(Exit::machine_or_force, at(region), message);
+  throw InputError(ErrorKind::machine_or_force, at(region), message);
 }
 
 void Source::fail(const toml::node& node, const std::string& message) const {
@@ -65,7 +65,7 @@ void Source::fail(const toml::key& key, const std::string& message) const {
 }
 
 void Source::fail_at_start(const std::string& message) const {
-  throw InputError(Exit::machine_or_force, {file_, 1, 1}, message);
+  throw InputError(ErrorKind::machine_or_force, {file_, 1, 1}, message);
 }
 
 bool before(const toml::source_region& a, const toml::source_region& b) {

@@ -16,12 +16,12 @@ namespace {
 
 /// The message of an attempt to lock, or "locked".
 std::string attempt(const std::string& folder, LockKind kind = LockKind::exclusive,
-                    Exit exit = Exit::transient_io) {
+                    ErrorKind expected = ErrorKind::transient_io) {
   try {
     const FolderLock lock(folder, kind, "counterflex batch other.toml");
     return lock.locked() ? "locked" : lock.why_not();
   } catch (const InputError& error) {
-    CHECK(error.exit() == exit);
+    CHECK(error.kind() == expected);
     return error.what();
   }
 }
@@ -153,7 +153,7 @@ TEST_CASE(
     "a folder that cannot be created is a permanent error, a lock that cannot be created a temporary one") {
   const Folder place;
   write_file(place.file("file"), "");
-  CHECK(attempt(place.file("file"), LockKind::exclusive, Exit::usage)
+  CHECK(attempt(place.file("file"), LockKind::exclusive, ErrorKind::usage)
             .find("file: error: cannot make the folder: ") != std::string::npos);
   std::filesystem::create_directories(place.file("out/.counterflex/lock"));
   CHECK(attempt(place.file("out")).find("out: error: cannot lock the folder: ") != std::string::npos);

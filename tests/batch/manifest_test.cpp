@@ -11,10 +11,10 @@ namespace {
 /// The refusal of `text` without its advice, or "read".
 std::string refusal(const std::string& text) {
   try {
-    (void)read_manifest(text, "m.json");
+    (void)read_manifest(text, "m.json", status_of);
     return "read";
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::machine_or_force);
+    CHECK(error.kind() == ErrorKind::machine_or_force);
     CHECK(error.where().line > 0);
     CHECK(error.where().column > 0);
     const std::string what = error.what();
@@ -41,18 +41,18 @@ TEST_CASE("reading a written manifest restores it, with jobs and without") {
   for (const int jobs : {0, 1, 2, 50}) {
     CAPTURE(jobs);
     const Manifest manifest = made_up_manifest(jobs);
-    CHECK(read_manifest(to_text(manifest), "m.json") == manifest);
+    CHECK(read_manifest(to_text(manifest, status_of), "m.json", status_of) == manifest);
   }
 }
 
 TEST_CASE("a manifest has one job per line, between one line before and two after") {
-  const std::string text = to_text(made_up_manifest(5));
+  const std::string text = to_text(made_up_manifest(5), status_of);
   CHECK(std::count(text.begin(), text.end(), '\n') == 5 + 3);
-  CHECK(text.find('\n' + to_json_line(made_up_outcome(1)) + ",\n") != std::string::npos);
+  CHECK(text.find('\n' + to_json_line(made_up_outcome(1), status_of) + ",\n") != std::string::npos);
 }
 
 TEST_CASE("a truncated manifest is refused at its end") {
-  const std::string text = to_text(made_up_manifest(3));
+  const std::string text = to_text(made_up_manifest(3), status_of);
   for (std::size_t size = 0; size < text.size(); ++size) {
     CAPTURE(size);
     const std::string begun = text.substr(0, size), refused = refusal(begun);
@@ -64,7 +64,7 @@ TEST_CASE("a truncated manifest is refused at its end") {
 }
 
 TEST_CASE("a manifest with a changed, added or missing byte is refused") {
-  const std::string text = to_text(made_up_manifest(4));
+  const std::string text = to_text(made_up_manifest(4), status_of);
   std::mt19937 random(11);
   for (int trial = 0; trial < 3000; ++trial) {
     std::string changed = text;
@@ -81,7 +81,7 @@ TEST_CASE("a manifest with a changed, added or missing byte is refused") {
 
 TEST_CASE("a change with the right sum is refused, too, unless it is a manifest") {
   const Manifest manifest = made_up_manifest(4);
-  const std::string text = to_text(manifest);
+  const std::string text = to_text(manifest, status_of);
   CHECK(summed(text) == text);
   std::mt19937 random(12);
   for (int trial = 0; trial < 2000; ++trial) {
@@ -93,16 +93,16 @@ TEST_CASE("a change with the right sum is refused, too, unless it is a manifest"
     CAPTURE(at);
     std::string taken = changed;
     try {
-      taken = to_text(read_manifest(changed, "m.json"));
+      taken = to_text(read_manifest(changed, "m.json", status_of), status_of);
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::machine_or_force);
+      CHECK(error.kind() == ErrorKind::machine_or_force);
     }
     CHECK(taken == changed);
   }
 }
 
 TEST_CASE("a refusal names the place and the text there") {
-  const std::string text = to_text(made_up_manifest(2));
+  const std::string text = to_text(made_up_manifest(2), status_of);
   CHECK(refusal("{}\n").starts_with("m.json:1:1: error: this is not a manifest of a batch"));
   CHECK(refusal(with(text, "manifest 2", "manifest 1")) ==
         "m.json:1:33: error: the manifest's format is '1', this program reads 2");
@@ -112,7 +112,9 @@ TEST_CASE("a refusal names the place and the text there") {
         fmt::format("m.json:2:{}: error: the line is not as counterflex writes it",
                     text.find(",\"verdict\"") - text.find('\n')));
   CHECK(refusal(with(text, "\"exit\":0", "\"exit\":")).starts_with("m.json:2:"));
-  CHECK(refusal(with(text, "\"exit\":0", "\"exit\":5"))
+  CHECK(refusal(with(text, "\"exit\":0", "\"exit\":5")) ==
+        "m.json:2:1: error: the line is not that of a job: no job ends with exit status 5");
+  CHECK(refusal(with(text, "\"exit\":0", "\"exit\":60"))
             .starts_with("m.json:5:11: error: the manifest was changed: the SHA-256 of the lines before"));
   CHECK(refusal(text + "\n") == "m.json:6:1: error: there is text after the end of the manifest");
 }
@@ -120,10 +122,10 @@ TEST_CASE("a refusal names the place and the text there") {
 TEST_CASE("two jobs that write one file are refused at the second") {
   Manifest same_program = made_up_manifest(4);
   same_program.jobs[2].output = same_program.jobs[0].output;
-  CHECK(refusal(to_text(same_program)) == "m.json:4:1: error: two jobs write corrected/O1000.ngc");
+  CHECK(refusal(to_text(same_program, status_of)) == "m.json:4:1: error: two jobs write corrected/O1000.ngc");
   Manifest same_report = made_up_manifest(4);
   for (const int job : {1, 3}) same_report.jobs[job].outputs.push_back({"corrected/r.json", sha256("r")});
-  CHECK(refusal(to_text(same_report)) == "m.json:5:1: error: two jobs write corrected/r.json");
+  CHECK(refusal(to_text(same_report, status_of)) == "m.json:5:1: error: two jobs write corrected/r.json");
 }
 
 TEST_CASE("the format is the one that is documented") {
@@ -136,7 +138,7 @@ TEST_CASE("the format is the one that is documented") {
       "\"inputs\":[{\"path\":\"i\",\"sha256\":\"h\"}],\"outputs\":[],\"before_mm\":null,\"after_mm\":null,"
       "\"corrected_percent\":null,\"warnings\":0,\"moves\":0}\n"
       "],\n";
-  CHECK(to_text(manifest) == lines + "\"sha256\":\"" + sha256(lines) + "\"}\n");
+  CHECK(to_text(manifest, status_of) == lines + "\"sha256\":\"" + sha256(lines) + "\"}\n");
 }
 
 namespace {
@@ -171,7 +173,7 @@ TEST_CASE("a job is unchanged if its key and all its files are") {
 TEST_CASE("a job that failed, or whose files are unknown, is not unchanged") {
   for (int what = 0; what < 3; ++what) {
     DoneJob job;
-    if (what == 0) job.outcome.exit = Exit::not_compensated;
+    if (what == 0) job.outcome.error_kind = ErrorKind::not_compensated;
     if (what == 1) job.outcome.inputs.clear();
     if (what == 2) job.outcome.outputs.clear();
     CAPTURE(what);

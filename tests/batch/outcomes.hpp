@@ -11,6 +11,11 @@
 
 namespace counterflex::test {
 
+/// Exit statuses of a made-up program.
+inline int status_of(ErrorKind kind) {
+  return 10 * (1 + static_cast<int>(kind));
+}
+
 inline JobOutcome made_up_outcome(int number) {
   JobOutcome outcome;
   outcome.key = sha256(fmt::format("key {}", number));
@@ -30,7 +35,7 @@ inline JobOutcome made_up_outcome(int number) {
 
 inline JobOutcome failed_outcome(int number) {
   JobOutcome outcome = made_up_outcome(number);
-  outcome.exit = Exit::transient_io;
+  outcome.error_kind = ErrorKind::transient_io;
   outcome.verdict = "FAILED";
   outcome.verdict_reason.clear();
   outcome.error = "corrected/a \"b\".ngc: error: cannot write the file:\n\tNo space left on device";

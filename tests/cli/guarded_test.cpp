@@ -8,13 +8,15 @@ using namespace counterflex::cli;
 TEST_CASE("lack of memory or threads has status 75, other exceptions have not") {
   std::string said;
   Console console({}, {.error = [&](std::string_view diagnostic) { said = diagnostic; }});
-  const auto thrown = [&](const auto& error) { return guarded(console, [&]() -> Exit { throw error; }); };
-  CHECK(thrown(std::bad_alloc()) == Exit::transient_io);
+  const auto thrown = [&](const auto& error) {
+    return guarded(console, [&]() -> std::optional<ErrorKind> { throw error; });
+  };
+  CHECK(thrown(std::bad_alloc()) == ErrorKind::transient_io);
   CHECK(said == "error: there is not enough memory");
-  CHECK(thrown(std::system_error(EAGAIN, std::generic_category())) == Exit::transient_io);
+  CHECK(thrown(std::system_error(EAGAIN, std::generic_category())) == ErrorKind::transient_io);
   CHECK(said == "error: the system has no more threads");
-  CHECK(thrown(std::system_error(EPERM, std::generic_category())) == Exit::internal);
-  CHECK(thrown(std::logic_error("no")) == Exit::internal);
+  CHECK(thrown(std::system_error(EPERM, std::generic_category())) == ErrorKind::internal);
+  CHECK(thrown(std::logic_error("no")) == ErrorKind::internal);
   CHECK(said == "error: internal error: no");
 }
 

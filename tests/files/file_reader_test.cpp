@@ -23,13 +23,13 @@ std::string in_portions(FileReader& reader, std::size_t most) {
   return bytes;
 }
 
-Exit change_of(const FileReader& reader) {
+std::optional<ErrorKind> change_of(const FileReader& reader) {
   try {
     reader.refuse_change();
   } catch (const InputError& error) {
-    return error.exit();
+    return error.kind();
   }
-  return Exit::done;
+  return std::nullopt;
 }
 
 }  // namespace
@@ -83,10 +83,10 @@ TEST_CASE("a file that changes while it is read is refused") {
   const Folder folder;
   write_file(folder.file("a.ngc"), "G1 X1\n");
   const FileReader replaced(folder.file("a.ngc"));
-  CHECK(change_of(replaced) == Exit::done);
-  CHECK(change_of(FileReader::of_bytes("G1")) == Exit::done);
+  CHECK(change_of(replaced) == std::nullopt);
+  CHECK(change_of(FileReader::of_bytes("G1")) == std::nullopt);
   std::filesystem::resize_file(folder.file("a.ngc"), 3);
-  CHECK(change_of(replaced) == Exit::transient_io);
+  CHECK(change_of(replaced) == ErrorKind::transient_io);
 }
 
 TEST_CASE("replacing a file while it is read does not affect the reader") {
@@ -94,7 +94,7 @@ TEST_CASE("replacing a file while it is read does not affect the reader") {
   write_file(folder.file("a.ngc"), "G1 X1\n");
   FileReader reader(folder.file("a.ngc"));
   write_file(folder.file("a.ngc"), "G1 X2\n");
-  CHECK(change_of(reader) == Exit::done);
+  CHECK(change_of(reader) == std::nullopt);
   CHECK(in_portions(reader, 100) == "G1 X1\n");
 }
 

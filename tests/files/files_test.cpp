@@ -41,7 +41,7 @@ InputError error_of(Action action) {
     return error;
   }
   FAIL("no InputError was thrown");
-  return InputError(Exit::internal, {}, "");
+  return InputError(ErrorKind::internal, {}, "");
 }
 
 bool mentions(const InputError& error, const std::string& text) {
@@ -65,11 +65,11 @@ TEST_CASE("reading a written file restores every byte") {
 TEST_CASE("a file that cannot be read is a usage error that names path and reason") {
   const Folder folder;
   const auto missing = error_of([&] { read_file(folder.file("no.ngc")); });
-  CHECK(missing.exit() == Exit::usage);
+  CHECK(missing.kind() == ErrorKind::usage);
   CHECK(mentions(missing, folder.file("no.ngc")));
   CHECK(mentions(missing, "No such file or directory"));
   const auto directory = error_of([&] { read_file(folder.path.string()); });
-  CHECK(directory.exit() == Exit::usage);
+  CHECK(directory.kind() == ErrorKind::usage);
   CHECK(mentions(directory, "Is a directory"));
 }
 
@@ -92,11 +92,11 @@ TEST_CASE("a new file has the permissions 0644 less the umask, an old one keeps 
 TEST_CASE("a write to a path that is not a file is a usage error with the path, and leaves no trace") {
   const Folder folder;
   const auto no_folder = error_of([&] { write_file(folder.file("none/a"), "1"); });
-  CHECK(no_folder.exit() == Exit::usage);
+  CHECK(no_folder.kind() == ErrorKind::usage);
   CHECK(mentions(no_folder, folder.file("none/a")));
   fs::create_directory(folder.path / "taken");
   const auto taken = error_of([&] { write_file(folder.file("taken"), "1"); });
-  CHECK(taken.exit() == Exit::usage);
+  CHECK(taken.kind() == ErrorKind::usage);
   CHECK(mentions(taken, "Is a directory"));
   CHECK(folder.count() == 1);
 }
@@ -106,7 +106,7 @@ TEST_CASE("a folder without write permission is refused and the old file is unch
   const Folder folder;
   write_file(folder.file("a"), "old");
   fs::permissions(folder.path, fs::perms::owner_read | fs::perms::owner_exec);
-  CHECK(error_of([&] { write_file(folder.file("a"), "new"); }).exit() == Exit::usage);
+  CHECK(error_of([&] { write_file(folder.file("a"), "new"); }).kind() == ErrorKind::usage);
   fs::permissions(folder.path, fs::perms::owner_all);
   CHECK(read_file(folder.file("a")) == "old");
   CHECK(folder.count() == 1);
@@ -114,7 +114,7 @@ TEST_CASE("a folder without write permission is refused and the old file is unch
 
 TEST_CASE("a full device is an error, and a device is never replaced by a file") {
   const auto full = error_of([] { write_file("/dev/full", "1"); });
-  CHECK(full.exit() == Exit::transient_io);
+  CHECK(full.kind() == ErrorKind::transient_io);
   CHECK(mentions(full, "No space left on device"));
   CHECK(fs::is_character_file("/dev/full"));
 }
@@ -134,15 +134,15 @@ TEST_CASE("a dash is standard input and standard output") {
 
 TEST_CASE("a standard output that accepts no bytes is an error") {
   std::string what;
-  Exit exit = Exit::done;
+  std::optional<ErrorKind> kind;
   {
     std::fflush(stdout);
     const Redirected output(STDOUT_FILENO, "/dev/full", O_WRONLY);
     const auto error = error_of([] { write_file("-", "bytes"); });
     what = error.what();
-    exit = error.exit();
+    kind = error.kind();
   }
-  CHECK(exit == Exit::transient_io);
+  CHECK(kind == ErrorKind::transient_io);
   CHECK(what == "error: cannot write standard output: No space left on device");
 }
 
@@ -161,7 +161,7 @@ TEST_CASE("a broken symbolic link is refused as output and is not changed") {
   fs::create_symlink("loop", folder.path / "loop");
   for (const char* name : {"link", "loop"}) {
     const auto error = error_of([&] { write_file(folder.file(name), "new"); });
-    CHECK(error.exit() == Exit::usage);
+    CHECK(error.kind() == ErrorKind::usage);
     CHECK(mentions(error, "symbolic link"));
     CHECK(fs::is_symlink(folder.path / name));
   }
@@ -175,7 +175,7 @@ TEST_CASE("names of up to 255 bytes can be written, longer ones are a usage erro
     write_file(path, "new");
     CHECK(read_file(path) == "new");
   }
-  CHECK(error_of([&] { write_file(folder.file(std::string(256, 'n')), "new"); }).exit() == Exit::usage);
+  CHECK(error_of([&] { write_file(folder.file(std::string(256, 'n')), "new"); }).kind() == ErrorKind::usage);
   CHECK(folder.count() == 4);
 }
 
@@ -206,8 +206,8 @@ TEST_CASE("base64 follows its standard, and integrity encodes the digest's bytes
 TEST_CASE("a missing file is a usage error, a read failure is a temporary error") {
   const Folder folder;
   for (const std::string& path : {folder.file("missing"), folder.file("missing/below"), std::string("/")})
-    CHECK(error_of([&] { read_file(path); }).exit() == Exit::usage);
+    CHECK(error_of([&] { read_file(path); }).kind() == ErrorKind::usage);
   const InputError error = error_of([] { read_file("/proc/self/mem"); });  // reading its beginning fails
-  CHECK(error.exit() == Exit::transient_io);
+  CHECK(error.kind() == ErrorKind::transient_io);
   CHECK(mentions(error, "cannot read the file: Input/output error"));
 }

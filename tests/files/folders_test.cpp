@@ -23,7 +23,7 @@ TEST_CASE("the error for a folder that cannot be created has its name") {
       make_folder(folder.file(path));
       FAIL("it was made");
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::usage);
+      CHECK(error.kind() == ErrorKind::usage);
       CHECK(error.where().file.starts_with(folder.file("file")));
     }
   }

@@ -8,7 +8,7 @@ using namespace counterflex;
 
 TEST_CASE("a diagnostic has the known part of the place") {
   const auto text = [](const Location& where) {
-    return std::string(InputError(Exit::usage, where, "m").what());
+    return std::string(InputError(ErrorKind::usage, where, "m").what());
   };
   CHECK(text({"a.ngc", 3, 7}) == "a.ngc:3:7: error: m");
   CHECK(text({"a.ngc", 3, 0}) == "a.ngc:3: error: m");
@@ -17,8 +17,8 @@ TEST_CASE("a diagnostic has the known part of the place") {
 }
 
 TEST_CASE("an input error keeps its exit status and its place") {
-  const InputError error(Exit::program_text, {"a.ngc", 3, 7}, "m");
-  CHECK(error.exit() == Exit::program_text);
+  const InputError error(ErrorKind::program_text, {"a.ngc", 3, 7}, "m");
+  CHECK(error.kind() == ErrorKind::program_text);
   CHECK(error.where().line == 3);
   CHECK(error.where().column == 7);
 }

@@ -20,6 +20,6 @@ TEST_CASE("line ends of a text are kept") {
 }
 
 TEST_CASE("a diagnostic is one line without control characters, for any quoted text") {
-  const InputError error(Exit::program_text, {"a\nb\x1b[2J", 3, 1}, "unknown '\xe2\x80\xae'");
+  const InputError error(ErrorKind::program_text, {"a\nb\x1b[2J", 3, 1}, "unknown '\xe2\x80\xae'");
   CHECK(std::string(error.what()) == "a\\x0Ab\\x1B[2J:3:1: error: unknown '\\u202E'");
 }

@@ -39,7 +39,7 @@ std::string diagnostic(const std::string& text, const std::string& file) {
     for (const ForceRule& rule : rules_in(text, file)) source.rules.push_back(rule);
     test::forces_on(test::sample_program(), source);
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::machine_or_force);
+    CHECK(error.kind() == ErrorKind::machine_or_force);
     return error.what();
   }
   return "no error";

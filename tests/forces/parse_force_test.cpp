@@ -16,7 +16,7 @@ TEST_CASE("any other force on the command line is a usage error that shows it") 
     try {
       parse_force(text);
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::usage);
+      CHECK(error.kind() == ErrorKind::usage);
       return std::string(error.what());
     }
     return std::string("no error");

@@ -45,7 +45,9 @@ std::string refused(const Program& program, const ForceSource& source) {
   try {
     forces_on(program, source);
   } catch (const InputError& error) {
-    return fmt::format("{}: {}", static_cast<int>(error.exit()), error.what());
+    const bool of_option = error.kind() == ErrorKind::usage,
+               of_file = error.kind() == ErrorKind::machine_or_force;
+    return fmt::format("{}: {}", of_option ? "option" : of_file ? "file" : "other kind", error.what());
   }
   return "no error";
 }
@@ -104,7 +106,8 @@ TEST_CASE("a FORCE comment is a rule for its place, and where none acts other ru
   const auto lines = given({"line," + columns + "2,4,0,0\n3,,,\n6,6,0,0\n"});
   CHECK(middle_fx(forces_on(program, lines)) == std::vector<double>{4, 9, 0, 6});
   CHECK(refused(program, given({"line," + columns + "2,4,0,0\n"})) ==
-        "4: a.csv:4:1: error: covers line 3 of the program, which a FORCE comment covers too; both are given "
+        "file: a.csv:4:1: error: covers line 3 of the program, which a FORCE comment covers too; both are "
+        "given "
         "for places: one of them must not cover it");
 }
 
@@ -172,33 +175,34 @@ TEST_CASE("a profile whose cover ends within the rounding of its keys leaves a m
 
 TEST_CASE("rules of equal rank that cover one move are refused, for all kinds of rules") {
   const std::string t3 = "tool," + columns + "T3,2,0,0\n";
-  CHECK(refused(sample_program(), given({"1,0,0", "2,0,0"})) ==
-        "2: error: --force 1,0,0: covers line 2 of the program, which --force 2,0,0 covers too; both are "
-        "given for the whole program: one of them must be more specific");
+  CHECK(
+      refused(sample_program(), given({"1,0,0", "2,0,0"})) ==
+      "option: error: --force 1,0,0: covers line 2 of the program, which --force 2,0,0 covers too; both are "
+      "given for the whole program: one of them must be more specific");
   CHECK(refused(sample_program(), given({t3, "1,0,0", "T3=4,0,0"})) ==
-        "4: a.csv:4:1: error: covers line 5 of the program, which --force T3=4,0,0 covers too; both are "
+        "file: a.csv:4:1: error: covers line 5 of the program, which --force T3=4,0,0 covers too; both are "
         "given for tools: one of them must be more specific");
   ForceSource source = given({"1,0,0"});
   source.rules.push_back(section_for({.lines = {{2, 3}}}));
   source.rules.push_back(section_for({.blocks = {{20, 50}}}));
   source.rules[2].where.line = 20;
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:20:1: error: section 1: covers line 2 of the program, which section 1 (cut.toml:9) "
+        "file: cut.toml:20:1: error: section 1: covers line 2 of the program, which section 1 (cut.toml:9) "
         "covers too; both are given for places: narrow lines or blocks of one of them");
   source.rules.pop_back();
   source.rules.push_back(read_force_csv(on_tool + "line," + columns + "3,4,0,0\n", "l.csv")[0]);
-  CHECK(
-      refused(sample_program(), source) ==
-      "4: l.csv:4:1: error: covers line 3 of the program, which section 1 (cut.toml:9) covers too; both are "
-      "given for places: narrow lines or blocks of the section, or end the rows with one that has its key "
-      "only");
+  CHECK(refused(sample_program(), source) ==
+        "file: l.csv:4:1: error: covers line 3 of the program, which section 1 (cut.toml:9) covers too; both "
+        "are "
+        "given for places: narrow lines or blocks of the section, or end the rows with one that has its key "
+        "only");
 }
 
 TEST_CASE("a tool that the program never uses is refused at the row or the option that names it") {
   CHECK(refused(sample_program(), given({"0,0,0", "T9=1,0,0"})) ==
-        "2: error: --force T9=1,0,0: unknown tool T9: the program uses T1, T3");
+        "option: error: --force T9=1,0,0: unknown tool T9: the program uses T1, T3");
   CHECK(refused(straight(10, 5), given({"0,0,0", "T9=1,0,0"})) ==
-        "2: error: --force T9=1,0,0: unknown tool T9: the program uses no tool with a number");
+        "option: error: --force T9=1,0,0: unknown tool T9: the program uses no tool with a number");
 }
 
 TEST_CASE("a rule that covers no feed move is refused at its place, unless its force is zero") {
@@ -206,9 +210,9 @@ TEST_CASE("a rule that covers no feed move is refused at its place, unless its f
   program.moves[0].tool = 7;  // a rapid
   const std::string rows = "tool," + columns + "T3,2,0,0\nT7,";
   CHECK(refused(program, given({"1,0,0", rows + "2,0,0\n"})) ==
-        "4: a.csv:5:1: error: tool T7 covers no feed move of the program");
+        "file: a.csv:5:1: error: tool T7 covers no feed move of the program");
   CHECK(refused(program, given({"1,0,0", "T7=2,0,0"})) ==
-        "2: error: --force T7=2,0,0: tool T7 covers no feed move of the program");
+        "option: error: --force T7=2,0,0: tool T7 covers no feed move of the program");
   CHECK(refused(program, given({"1,0,0", rows + "0,0,0\n"})) == "no error");
   for (const ForceSelector& selector :
        {ForceSelector{.tool = 3, .operation = "rough*"}, ForceSelector{.blocks = {{11, 19}}},
@@ -309,20 +313,21 @@ TEST_CASE("a section for lines or blocks beyond the program's end is refused") {
   ForceSource source = given({"0,0,0"});
   source.rules.push_back(section_for({.lines = {{7, 9}}}));
   CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: section 1: lines 7 to 9 are beyond the end of the program at line 6");
+        "file: cut.toml:9:1: error: section 1: lines 7 to 9 are beyond the end of the program at line 6");
   source.rules.back() = section_for({.blocks = {{60, 90}}});
-  CHECK(refused(sample_program(), source) ==
-        "4: cut.toml:9:1: error: section 1: blocks 60 to 90 are beyond the end of the program at block 50");
+  CHECK(
+      refused(sample_program(), source) ==
+      "file: cut.toml:9:1: error: section 1: blocks 60 to 90 are beyond the end of the program at block 50");
 }
 
 TEST_CASE("wrenches at the platform and at the tip are not mixed, not with a FORCE comment either") {
   const auto source = from_csv(on_tool + "# at = platform\nline," + columns + "1,1,0,0\n5,,,\n");
   Program program = sample_program();
   program.moves[4].force = program.moves[5].force = wrench(1, 0, 0);
-  CHECK(
-      refused(program, source) ==
-      "4: forces.csv:5:1: error: acts at the platform, but the FORCE comment for line 5 acts at the tip; one "
-      "run has its forces at one of the two places");
+  CHECK(refused(program, source) ==
+        "file: forces.csv:5:1: error: acts at the platform, but the FORCE comment for line 5 acts at the "
+        "tip; one "
+        "run has its forces at one of the two places");
   program.moves[4].force = program.moves[5].force = wrench(0, 0, 0);
   CHECK(forces_on(program, source).at_platform());
 }
@@ -352,7 +357,8 @@ TEST_CASE("a profile or a model that is zero everywhere is neither at the tip no
                                        "5,0,0,0,1\n",
                                    "forces.csv")[0];
   CHECK(refused(sample_program(), source) ==
-        "4: forces.csv:5:1: error: acts at the platform, but --force 10,0,0 acts at the tip; one run has its "
+        "file: forces.csv:5:1: error: acts at the platform, but --force 10,0,0 acts at the tip; one run has "
+        "its "
         "forces at one of the two places");
   ForceRule air = section_for({.lines = {{2, 2}}});
   air.content = CutResponse{.flutes = 3, .spindle_rpm = 1000};

@@ -25,7 +25,7 @@ TEST_CASE("a mistake in a tool table is an error at its place") {
     try {
       read_tool_table(text, "tool.tbl");
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::machine_or_force);
+      CHECK(error.kind() == ErrorKind::machine_or_force);
       return std::string(error.what());
     }
     return std::string("no error");

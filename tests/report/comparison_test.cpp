@@ -133,8 +133,8 @@ TEST_CASE("missing values of a prediction are a dash on the terminal and null in
 TEST_CASE("two predictions, and runs without solved waypoints, also have a conclusion") {
   const MadeUpRun run;
   const ReportFile a = report_named("a", to_json(predicted(run, made_up_waypoints())));
-  const ReportFile nothing =
-      report_named("b", to_json(predicted(run, {}, Failure{Exit::not_compensated, 4, "no equilibrium"})));
+  const ReportFile nothing = report_named(
+      "b", to_json(predicted(run, {}, Failure{ErrorKind::not_compensated, 4, "no equilibrium"})));
   CHECK(contains(compare(a, a, "0.1.0").conclusion,
                  "Uncorrected, a and a are off by the same amount, by up to 500.0 um."));
   const Comparison comparison = compare(a, nothing, "0.1.0");
@@ -142,7 +142,8 @@ TEST_CASE("two predictions, and runs without solved waypoints, also have a concl
   CHECK(comparison.conclusion == "There is no deviation to compare. b failed before anything was solved.");
   CHECK(contains(to_text(comparison, false), "     failed: line 4: no equilibrium\n"));
   const ReportFile partly = report_named(
-      "b", to_json(predicted(run, made_up_waypoints(), Failure{Exit::not_compensated, 4, "no equilibrium"})));
+      "b",
+      to_json(predicted(run, made_up_waypoints(), Failure{ErrorKind::not_compensated, 4, "no equilibrium"})));
   CHECK(contains(compare(a, partly, "0.1.0").conclusion,
                  " b failed: its numbers are those of the part that was solved."));
 }

@@ -362,8 +362,11 @@ TEST_CASE("lengths are shown in inches of an inch program, else in mm of a machi
 TEST_CASE("the JSON of a failure has the failure, and null for unsolved results") {
   const MadeUpRun run;
   Compensation none;
-  none.failure = Failure{Exit::limit, 4, "too far"};
-  const std::string json = to_json(compensated(run, none));
+  none.failure = Failure{ErrorKind::limit, 4, "too far"};
+  RunReport report = compensated(run, none);
+  CHECK(report.error_kind == ErrorKind::limit);
+  report.exit_status = 6;
+  const std::string json = to_json(report);
   CHECK(contains(json, "\"failure\": {\n    \"exit\": 6,\n    \"line\": 4,\n    \"what\": \"too far\"\n  }"));
   CHECK(contains(json,
                  "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"sensitivity\": "
@@ -569,7 +572,7 @@ TEST_CASE("a summary without causes names the option for them") {
 
 TEST_CASE("the JSON of a failure has the deviation there by its causes, if it was solved") {
   RunReport report;
-  report.failure = Failure{Exit::limit, 4, "too far"};
+  report.failure = Failure{ErrorKind::limit, 4, "too far"};
   CHECK_FALSE(contains(to_json(report), "\"at\""));
   report.failure_place = SourcesAtWorst{.line = 4,
                                         .place_mm = {1, 2, 3},
@@ -586,8 +589,10 @@ TEST_CASE("the JSON of a failure has the deviation there by its causes, if it wa
 TEST_CASE("the summary of a failure shows the failure and only known numbers") {
   const MadeUpRun run;
   Compensation none;
-  none.failure = Failure{Exit::limit, 4, "the correction is too large"};
-  const std::string text = details_text(compensated(run, none), false);
+  none.failure = Failure{ErrorKind::limit, 4, "the correction is too large"};
+  RunReport report = compensated(run, none);
+  report.exit_status = 6;
+  const std::string text = details_text(report, false);
   CHECK(text.starts_with("FAILED\n"));
   CHECK(contains(text,
                  "Failed (exit status 6)\n  line 4: the correction is too large\n  No corrected program was "

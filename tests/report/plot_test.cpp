@@ -263,7 +263,7 @@ TEST_CASE("steps of the force are lines, or a number if they would hide the curv
 
 TEST_CASE("a plot can be drawn without waypoints, without deviation, and with markup in names") {
   const MadeUpRun run;
-  RunReport report = predicted(run, {}, Failure{Exit::not_compensated, 4, "no <equilibrium>"});
+  RunReport report = predicted(run, {}, Failure{ErrorKind::not_compensated, 4, "no <equilibrium>"});
   report.machine = "<script>alert(1)</script> & \x01";
   const std::string nothing = to_svg(PathCurves(false), report);
   CHECK(contains(nothing, "no &lt;equilibrium&gt;"));

@@ -111,7 +111,7 @@ TEST_CASE("an input that is not a report is refused at its place") {
     try {
       read_report_file(write(folder, name, text), WithCurves::no);
     } catch (const InputError& error) {
-      CHECK(error.exit() == Exit::usage);
+      CHECK(error.kind() == ErrorKind::usage);
       return std::string(error.what()).substr(folder.path.string().size() + 1);
     }
     return "";

@@ -129,7 +129,7 @@ TEST_CASE("a plunge without lateral force is among the warnings") {
 
 TEST_CASE("unsolved waypoints have no deviation: a failed run is not a perfect one") {
   const MadeUpRun run;
-  const Failure failure{Exit::not_compensated, 4, "singular"};
+  const Failure failure{ErrorKind::not_compensated, 4, "singular"};
   Compensation none;
   none.failure = failure;
   const RunReport nothing = compensated(run, none);

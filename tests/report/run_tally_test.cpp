@@ -336,7 +336,7 @@ TEST_CASE("a failed run has no corrected share, and operations without solved wa
   const RunTally tally = run.tally(made_up_waypoints());
   CHECK(report_compensation(run.context(overview), tally, {}).corrected_percent);
   const RunReport failed =
-      report_compensation(run.context(overview), tally, Failure{Exit::limit, 4, "too far"});
+      report_compensation(run.context(overview), tally, Failure{ErrorKind::limit, 4, "too far"});
   CHECK_FALSE(failed.corrected_percent);
   CHECK_FALSE(failed.operations.at(0).corrected_percent);
   const RunReport none = report_prediction(run.context(overview), RunTally(2), {});

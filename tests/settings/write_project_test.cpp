@@ -92,7 +92,8 @@ TEST_CASE(
     try {
       to_project_text({setting});
     } catch (const InputError& error) {
-      CHECK(error.exit() == (setting.origin == Origin::file ? Exit::machine_or_force : Exit::usage));
+      CHECK(error.kind() ==
+            (setting.origin == Origin::file ? ErrorKind::machine_or_force : ErrorKind::usage));
       return error.what();
     }
     return "none";

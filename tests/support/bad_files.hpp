@@ -19,7 +19,7 @@ std::string diagnostic_of(const Read& read, const std::string& text, const std::
   try {
     read(text, name);
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::machine_or_force);
+    CHECK(error.kind() == ErrorKind::machine_or_force);
     CHECK(error.where().file == name);
     return error.what();
   }

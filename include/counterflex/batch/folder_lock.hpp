@@ -18,8 +18,8 @@ enum class LockKind {
 /// empty: the next holder empties or replaces the text that a dead one has left.
 class FolderLock {
  public:
-  /// Makes the folders that are missing. Does not wait: throws `InputError` (Exit::transient_io) naming the
-  /// folder, and the holder where one is known, where another run has it, and with the reason where the
+  /// Makes the folders that are missing. Does not wait: throws `InputError` (ErrorKind::transient_io) naming
+  /// the folder, and the holder where one is known, where another run has it, and with the reason where the
   /// lock's file cannot be made or opened.
   FolderLock(const std::string& folder, LockKind kind, std::string_view command);
 

@@ -33,17 +33,21 @@ struct FileHash {
   bool operator==(const FileHash&) const = default;
 };
 
+/// The exit status of a job's process for a kind of error: not 0, and another one for each kind. The program
+/// that runs the jobs defines it; manifests and summaries hold its numbers, and 0 for a job that is done.
+using ExitStatusOf = int (*)(ErrorKind);
+
 struct JobOutcome {
   /// SHA-256 of what decides the outputs besides the bytes of the inputs: version and options.
   std::string key;
   std::string program;  ///< path of the original
   std::string output;   ///< path of the corrected program, which no other job of the batch has
-  Exit exit = Exit::done;
-  std::string verdict = "FAILED";  ///< of the run's report; FAILED where it came to none
-  std::string verdict_reason;      ///< as in the report
-  std::string error;               ///< the first diagnostic of a job that failed
-  std::vector<FileHash> inputs;    ///< as they were read
-  std::vector<FileHash> outputs;   ///< as they were written, the corrected program first where there is one
+  std::optional<ErrorKind> error_kind;  ///< none: done
+  std::string verdict = "FAILED";       ///< of the run's report; FAILED where it came to none
+  std::string verdict_reason;           ///< as in the report
+  std::string error;                    ///< the first diagnostic of a job that failed
+  std::vector<FileHash> inputs;         ///< as they were read
+  std::vector<FileHash> outputs;  ///< as they were written, the corrected program first where there is one
   std::optional<double> before_mm,
       after_mm;  ///< largest deviation of feed moves; none where nothing was solved
   std::optional<double> corrected_percent;  ///< of the cutting length
@@ -53,10 +57,11 @@ struct JobOutcome {
 };
 
 /// A JSON object on one line, without its end; numbers are read back as they were.
-std::string to_json_line(const JobOutcome& outcome);
+std::string to_json_line(const JobOutcome& outcome, ExitStatusOf exit_status);
 
-/// Throws `InputError` (Exit::internal), without a place, where `line` is not what `to_json_line` writes.
-JobOutcome outcome_of(std::string_view line);
+/// Throws `InputError` (ErrorKind::internal), without a place, where `line` is not what `to_json_line`
+/// writes.
+JobOutcome outcome_of(std::string_view line, ExitStatusOf exit_status);
 
 struct Manifest {
   std::string version;           ///< of the program that did the jobs
@@ -65,12 +70,12 @@ struct Manifest {
   bool operator==(const Manifest&) const = default;
 };
 
-std::string to_text(const Manifest& manifest);
+std::string to_text(const Manifest& manifest, ExitStatusOf exit_status);
 
-/// Takes only what `to_text` writes, byte for byte. Throws `InputError` (Exit::machine_or_force) with the
-/// place in `file` where `text` was cut off or changed, is of another format, or names a file that two jobs
-/// write. The message states how to continue.
-Manifest read_manifest(std::string_view text, const std::string& file);
+/// Takes only what `to_text` writes, byte for byte. Throws `InputError` (ErrorKind::machine_or_force) with
+/// the place in `file` where `text` was cut off or changed, is of another format, or names a file that two
+/// jobs write. The message states how to continue.
+Manifest read_manifest(std::string_view text, const std::string& file, ExitStatusOf exit_status);
 
 /// Hashes of files, each read once, however many jobs share it.
 class FileHashes {
@@ -96,7 +101,8 @@ struct Shard {
 
 inline constexpr int most_shards = 100000;
 
-/// Throws `InputError` (Exit::usage) for anything but two whole numbers of which the first is not larger.
+/// Throws `InputError` (ErrorKind::usage) for anything but two whole numbers of which the first is not
+/// larger.
 Shard read_shard(std::string_view text);
 
 /// The jobs of each of `shards` shards, by `work` of the jobs (any unit, positive): the largest first, each
@@ -106,22 +112,22 @@ std::vector<std::vector<std::size_t>> plan_shards(const std::vector<double>& wor
 
 // What a batch has come to: for people, and for programs.
 
-/// Whether a job that ended so would fail again with the same inputs: it was understood and refused.
-bool fails_again(Exit exit);
+/// Whether a job that failed so would fail again with the same inputs: it was understood and refused.
+bool fails_again(ErrorKind error);
 
 /// The outcomes, worst first: those that failed, those whose verdict PARTLY was accepted, then by the
 /// deviation that is left, then by the one before, the largest first; equal ones by the path of the program.
 std::vector<JobOutcome> worst_first(std::vector<JobOutcome> outcomes);
 
 /// "done", or what failed, in a few words: "not within tolerance".
-std::string_view status_text(Exit exit);
+std::string_view status_text(const std::optional<ErrorKind>& error);
 
 /// The same; of a job whose verdict is PARTLY or NOTHING CORRECTED, that.
 std::string_view status_text(const JobOutcome& outcome);
 
-/// The status of a batch: 0 where all are done; 75 where one may succeed if it is tried again; else the
-/// smallest of those that failed.
-Exit exit_of(const std::vector<JobOutcome>& outcomes);
+/// The error of a batch: none where all are done; `transient_io` where one may succeed if it is tried again;
+/// else the first kind, in the order of `ErrorKind`, of those that failed.
+std::optional<ErrorKind> error_of(const std::vector<JobOutcome>& outcomes);
 
 /// One table of at most `most_rows` jobs, worst first, with what is to be known of the others, and the
 /// diagnostics of these that failed. Lengths in mm.
@@ -131,7 +137,8 @@ std::string summary_table(const std::vector<JobOutcome>& outcomes, std::size_t m
 /// "exit_status", "jobs": [{"program", "output", "verdict", "verdict_reason", "status", "exit_status",
 /// "error", "before_mm", "after_mm", "corrected_percent", "warnings", "moves", "inputs": [{"path",
 /// "sha256"}], "outputs": [...]}]}, worst first. `version` is the tool's.
-std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version);
+std::string summary_json(const std::vector<JobOutcome>& outcomes, std::string_view version,
+                         ExitStatusOf exit_status);
 
 /// The first row of the table of jobs.
 inline constexpr std::string_view summary_columns =
@@ -139,6 +146,6 @@ inline constexpr std::string_view summary_columns =
     "verdict_reason";
 
 /// The same jobs as rows of `summary_columns`; fields quoted as RFC 4180 has it.
-std::string summary_csv(const std::vector<JobOutcome>& outcomes);
+std::string summary_csv(const std::vector<JobOutcome>& outcomes, ExitStatusOf exit_status);
 
 }  // namespace counterflex

@@ -59,10 +59,10 @@ inline const Model& model_of(const Job& job, const Segment& segment) {
   return model_with(job.model, job.tools, job.program.moves[segment.move].tool);
 }
 
-/// Why a run was refused: exit status, line of the original program, what happened, and the line of the
+/// Why a run was refused: the kind of error, line of the original program, what happened, and the line of the
 /// corrected program, if there is one (0: none).
 struct Failure {
-  Exit exit = Exit::not_compensated;
+  ErrorKind kind = ErrorKind::not_compensated;
   int line = 0;
   std::string what;
   int corrected_line = 0;

@@ -41,7 +41,7 @@ Compensation compensate(const Job& job, bool attribution);
 /// waypoints are set.
 Compensation verify(const Job& job, const Program& corrected, bool attribution);
 
-/// The failure of words that are written too coarsely for the tolerance (Exit::usage), if there are any.
+/// The failure of words that are written too coarsely for the tolerance (ErrorKind::usage), if there are any.
 std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
                                         const CompensationOptions& options);
 

@@ -8,7 +8,8 @@ namespace counterflex {
 
 /// A file's bytes from its beginning, as often as wanted; "-" is standard input. What can be read only once,
 /// a pipe, is copied to a nameless temporary file first. All members throw `InputError` where the file
-/// cannot be read: Exit::usage where no file exists that may be read, Exit::transient_io where reading fails.
+/// cannot be read: ErrorKind::usage where no file exists that may be read, ErrorKind::transient_io where
+/// reading fails.
 class FileReader {
  public:
   explicit FileReader(const std::string& path);
@@ -24,8 +25,8 @@ class FileReader {
   /// what has been read.
   void hash_along();
 
-  /// Throws `InputError` (Exit::transient_io) where the file is not what it was when it was opened, by size
-  /// or time: what was read of it need not belong together.
+  /// Throws `InputError` (ErrorKind::transient_io) where the file is not what it was when it was opened, by
+  /// size or time: what was read of it need not belong together.
   void refuse_change() const;
 
  private:

@@ -11,10 +11,10 @@ namespace counterflex {
 /// A file that is written in order to a temporary name in its folder, and gets its own name when it is
 /// published; if it never is, nothing of it stays. Through a symbolic link the file that it names is
 /// replaced, with its mode. "-" is standard output: that, pipes and devices are streams, which receive
-/// everything at once when they are published. All members throw `InputError` (Exit::transient_io) naming the
-/// path where it cannot be written.
-/// A file that is published survives a power cut where its file system can promise that; where the disk fails
-/// when only that is left to do, publishing throws although the file has its name.
+/// everything at once when they are published. All members throw `InputError` (ErrorKind::transient_io)
+/// naming the path where it cannot be written. A file that is published survives a power cut where its file
+/// system can promise that; where the disk fails when only that is left to do, publishing throws although the
+/// file has its name.
 class FileWriter {
  public:
   explicit FileWriter(const std::string& path);

@@ -12,8 +12,8 @@ namespace counterflex {
 std::string read_file(const std::string& path);
 
 /// Writes `bytes` under `path` or not at all: to a temporary name in the same folder, flushed, then renamed.
-/// "-" is standard output. Throws `InputError` (Exit::transient_io) naming the path, and leaves no temporary
-/// file.
+/// "-" is standard output. Throws `InputError` (ErrorKind::transient_io) naming the path, and leaves no
+/// temporary file.
 void write_file(const std::string& path, std::string_view bytes);
 
 /// SHA-256 of `bytes`, 64 lower-case hexadecimal digits.
@@ -30,12 +30,13 @@ std::string integrity(std::string_view bytes);
 /// That of the file `path`; "." for a name alone.
 std::string folder_of(const std::string& path);
 
-/// Makes `path` and what is missing above it. Throws `InputError` (Exit::transient_io) naming the folder that
-/// cannot be made.
+/// Makes `path` and what is missing above it. Throws `InputError` (ErrorKind::transient_io) naming the folder
+/// that cannot be made.
 void make_folder(const std::string& path);
 
 /// Brings the names of files in `folder` to the disk. Where a file system or the folder's rights do not allow
-/// that, the files are there all the same. Throws `InputError` (Exit::transient_io) where the disk fails.
+/// that, the files are there all the same. Throws `InputError` (ErrorKind::transient_io) where the disk
+/// fails.
 void sync_folder(const std::string& folder);
 
 // SHA-256 of bytes that come in portions.
@@ -61,7 +62,7 @@ class Sha256 {
 
 /// Bytes that are written one behind the other and read anywhere, in a nameless file among the temporary
 /// ones. It holds nothing, not even a file, before the first byte. All members throw `InputError`
-/// (Exit::transient_io) where the file cannot be written or read.
+/// (ErrorKind::transient_io) where the file cannot be written or read.
 class Spool {
  public:
   Spool() = default;

@@ -1,22 +1,24 @@
 #pragma once
-/// The exception that a reader throws when its input is wrong, with the exit status of the program.
+/// The exception that a reader throws when its input is wrong, and the kinds of errors.
+#include <array>
 #include <stdexcept>
 #include <string>
 
 namespace counterflex {
 
-/// Exit statuses of the command line.
-enum class Exit : int {
-  done = 0,
-  internal = 1,
-  usage = 2,
-  program_text = 3,
-  machine_or_force = 4,
-  not_compensated = 5,
-  limit = 6,
-  transient_io = 75,
-  interrupted = 130,  ///< by SIGINT; other signals have 128 and their number
+/// What an error is about. A program that uses the library gives each kind an exit status.
+enum class ErrorKind {
+  internal,          ///< a defect of the program itself
+  usage,             ///< options, and files that cannot be read or written under their names
+  program_text,      ///< the machining program
+  machine_or_force,  ///< a machine, force, project or jobs file, or a manifest
+  not_compensated,   ///< not solved, or outside of the tolerance
+  limit,             ///< of travel or of the correction
+  transient_io,      ///< input or output that may succeed if it is tried again
 };
+inline constexpr std::array error_kinds{
+    ErrorKind::internal,        ErrorKind::usage, ErrorKind::program_text, ErrorKind::machine_or_force,
+    ErrorKind::not_compensated, ErrorKind::limit, ErrorKind::transient_io};
 
 /// A place in a file; line and column count from 1, columns in bytes; 0: not known.
 struct Location {
@@ -29,12 +31,12 @@ struct Location {
 /// allowed.
 class InputError : public std::runtime_error {
  public:
-  InputError(Exit exit, const Location& where, const std::string& message);
-  Exit exit() const { return exit_; }
+  InputError(ErrorKind kind, const Location& where, const std::string& message);
+  ErrorKind kind() const { return kind_; }
   const Location& where() const { return where_; }
 
  private:
-  Exit exit_;
+  ErrorKind kind_;
   Location where_;
 };
 

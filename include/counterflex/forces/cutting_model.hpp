@@ -162,7 +162,7 @@ struct CutSection {
 /// A radial depth a_e enters at 0 and leaves at acos(1 - 2 a_e / D) in up milling, enters at pi less that and
 /// leaves at pi in down milling; a slot is cut from 0 to pi. The wall that `surface` refers to is at the
 /// entry in up milling, at the exit in down milling, on both sides of a slot; with angles, where the entry is
-/// 0 and the exit 180. Throws `InputError` (Exit::machine_or_force) at the first thing that is wrong.
+/// 0 and the exit 180. Throws `InputError` (ErrorKind::machine_or_force) at the first thing that is wrong.
 std::vector<CutSection> read_cutting_model(std::string_view text, const std::string& file);
 
 /// Coefficients from the literature: of a material, as a cutter cut it. Others differ by tens of percent.

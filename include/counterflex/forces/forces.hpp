@@ -66,7 +66,8 @@ bool is_zero(const ForceRule& rule);
 ///    `# within_mm = 1` and `# coordinates = work | machine`;
 ///  - `tool` (3 or T3) or `op` (in double quotes where it has commas): one rule a row, in any order.
 ///
-/// Forces on the workpiece change their sign. Throws `InputError` (Exit::machine_or_force) naming the row.
+/// Forces on the workpiece change their sign. Throws `InputError` (ErrorKind::machine_or_force) naming the
+/// row.
 std::vector<ForceRule> read_force_csv(std::string_view text, const std::string& file);
 
 /// The same for a file of any size, in memory that does not grow with the rows of a profile.
@@ -75,7 +76,7 @@ std::vector<ForceRule> read_force_csv(FileReader& bytes, const std::string& file
 /// The rules of a TOML file of cutting models, one a section. Throws as `read_cutting_model`.
 std::vector<ForceRule> read_force_toml(std::string_view text, const std::string& file);
 
-/// "FX,FY,FZ[,MX,MY,MZ]" in N and N m. Throws `InputError` (Exit::usage).
+/// "FX,FY,FZ[,MX,MY,MZ]" in N and N m. Throws `InputError` (ErrorKind::usage).
 Vector6 parse_force(std::string_view text);
 
 /// The rule of one `--force`: a wrench for all moves, or "T3=FX,FY,FZ[,MX,MY,MZ]" for those of a tool. Throws
@@ -263,7 +264,7 @@ class PathForces {
 ///       cover.end_pass();
 ///     }
 ///
-/// Each function throws `InputError` (Exit::machine_or_force, or Exit::usage for the command line)
+/// Each function throws `InputError` (ErrorKind::machine_or_force, or ErrorKind::usage for the command line)
 /// at the row or section that is wrong: two of equal rank that cover one move; one that names what the
 /// program has not; a key that the program cannot have; a logged position far from the path or out of order.
 /// A feed move that no rule covers is named at its line.

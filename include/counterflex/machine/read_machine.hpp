@@ -10,9 +10,9 @@
 namespace counterflex {
 
 /// The machine that `text` describes. `file` names it in diagnostics. Throws `InputError`
-/// (Exit::machine_or_force), with line and column, on bad TOML, a key that the format does not know, a value
-/// out of its range, a name that is not defined, or a count of controlled components that is neither zero nor
-/// that of the actuators.
+/// (ErrorKind::machine_or_force), with line and column, on bad TOML, a key that the format does not know, a
+/// value out of its range, a name that is not defined, or a count of controlled components that is neither
+/// zero nor that of the actuators.
 Machine read_machine(std::string_view text, const std::string& file);
 
 /// The same, from a file. Throws `InputError` where it cannot be read.
@@ -41,8 +41,8 @@ std::vector<std::string> structural_notes(const Machine& machine);
 
 /// Lengths of tools (m) by number. Each line of the table is words `T1 P1 Z50.0 D6`, blank, or a comment
 /// after
-/// `;`; lengths are Z, in mm, 0 where Z is missing. Throws `InputError` (Exit::machine_or_force) with line
-/// and column for words that a table does not have, a line without T, and a tool that it lists twice.
+/// `;`; lengths are Z, in mm, 0 where Z is missing. Throws `InputError` (ErrorKind::machine_or_force) with
+/// line and column for words that a table does not have, a line without T, and a tool that it lists twice.
 std::map<long, double> read_tool_table(std::string_view text, const std::string& file);
 
 }  // namespace counterflex

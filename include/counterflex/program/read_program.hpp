@@ -29,7 +29,7 @@ struct ReadOptions {
   bool expand_subprograms = false;
 };
 
-/// The dialect is unknown, or programs in it are not read (Exit::usage).
+/// The dialect is unknown, or programs in it are not read (ErrorKind::usage).
 class UnknownDialect : public InputError {
  public:
   using InputError::InputError;
@@ -39,8 +39,9 @@ class UnknownDialect : public InputError {
 std::optional<std::string> unknown_dialect(const std::string& dialect);
 
 /// Reads `text` and keeps every byte. `file` is its name in diagnostics. Throws `InputError` with line and
-/// column for invalid text and for words that are not supported (Exit::program_text; Exit::machine_or_force
-/// for a FORCE comment). No word is ignored silently. Throws `UnknownDialect` if the dialect does not exist.
+/// column for invalid text and for words that are not supported (ErrorKind::program_text;
+/// ErrorKind::machine_or_force for a FORCE comment). No word is ignored silently. Throws `UnknownDialect` if
+/// the dialect does not exist.
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 /// The first word without a decimal point in the moves up to `line` that may mean units or increments, with a

@@ -136,8 +136,8 @@ class Rewriter {
 /// without an edit keeps its text; but if a block relies on the modal motion and an edit before it has
 /// changed that motion, the block gets a motion word. A fixed axis is not changed, and neither is an axis
 /// without a word whose position is unknown at the move's end. Inserted points that round to the point before
-/// them give no block. Throws `InputError` (Exit::program_text) for an integer word in a block that must be
-/// rewritten (see IntegerWords), and for a block that would be longer than the control reads.
+/// them give no block. Throws `InputError` (ErrorKind::program_text) for an integer word in a block that must
+/// be rewritten (see IntegerWords), and for a block that would be longer than the control reads.
 Rewritten rewrite(const Program& program, const std::vector<MoveEdit>& edits, const WriteOptions& options);
 
 }  // namespace counterflex

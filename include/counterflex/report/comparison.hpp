@@ -58,7 +58,8 @@ struct Comparison {
   std::string conclusion;                     ///< in a sentence or two
 };
 
-/// Throws `InputError` (Exit::usage) where something in a report is of another kind than reports have it.
+/// Throws `InputError` (ErrorKind::usage) where something in a report is of another kind than reports have
+/// it.
 Comparison compare(const ReportFile& a, const ReportFile& b, const std::string& version);
 
 /// "counterflex-comparison 1": indented by two spaces, one newline at the end.

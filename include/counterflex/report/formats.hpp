@@ -16,8 +16,9 @@ namespace counterflex {
 /// prediction).
 std::string to_json(const RunReport& report);
 
-/// The document of a run that ended before it had a report: with the verdict FAILED, and `failure`.
-std::string failed_json(Command command, std::string_view version, const InputError& error);
+/// The document of a run that ended before it had a report: with the verdict FAILED, and `failure`, whose
+/// `exit` is `exit_status`.
+std::string failed_json(Command command, std::string_view version, const InputError& error, int exit_status);
 
 /// The checks as a list of objects with check, state and text.
 std::string to_json(const SanityChecks& checks);

@@ -203,7 +203,9 @@ struct RunReport {
   Command command = Command::compensate;
   Verdict verdict = Verdict::failed;
   std::string verdict_reason;  ///< the text behind the word; empty for OK
-  Exit exit = Exit::internal;  ///< status with which the run ends; only with `done` is a program written
+  /// Why the run does not succeed; none: it is done, and only then is a program written.
+  std::optional<ErrorKind> error_kind = ErrorKind::internal;
+  int exit_status = 0;  ///< of the process, for `error_kind`; filled by the caller, who defines the numbers
   FeedMoves feed_moves;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
   std::string machine;
@@ -304,7 +306,7 @@ enum class WithCurves { no, yes };
 
 /// Reads STEM.json, or STEM.html with the report in it; "-" is standard input, with JSON. Curves and loads of
 /// STEM.json are those of STEM.html beside it, where that page shows the same report. Throws `InputError`
-/// (Exit::usage) where the file cannot be read, at line and column where it is not JSON, and where it is
+/// (ErrorKind::usage) where the file cannot be read, at line and column where it is not JSON, and where it is
 /// another document than the report of one run.
 ReportFile read_report_file(const std::string& path, WithCurves with);
 

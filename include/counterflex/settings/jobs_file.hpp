@@ -33,7 +33,7 @@ struct JobsFile {
 ///     output = "left"                 # a folder, or a pattern of names
 ///
 /// In an `output` of a jobs file a text without a pattern is a folder: the setting's value ends in a slash.
-/// Throws `InputError` (Exit::machine_or_force) with line and column.
+/// Throws `InputError` (ErrorKind::machine_or_force) with line and column.
 JobsFile read_jobs(std::string_view text, const std::string& file);
 
 // Names of outputs that are made of the name of the program: `{name}_CF{ext}`.

@@ -49,12 +49,12 @@ std::string shown_option(std::string_view option, Origin origin);
 ///     length_mm = 50
 ///
 /// Settings come in the order of the keys' list, not of the file. Throws `InputError`
-/// (Exit::machine_or_force) with line and column.
+/// (ErrorKind::machine_or_force) with line and column.
 std::vector<Setting> read_project(std::string_view text, const std::string& file);
 
 /// A project file that gives `settings`, each with its origin as a comment. A file of this text in the
 /// working directory gives the same values, numbers in their shortest form. Throws `InputError` for a value
-/// that is not UTF-8: Exit::machine_or_force at the place of a file's, else Exit::usage.
+/// that is not UTF-8: ErrorKind::machine_or_force at the place of a file's, else ErrorKind::usage.
 std::string to_project_text(const std::vector<Setting>& settings);
 
 /// The nearest `counterflex.toml` in the folder of `program` or above it; of the working directory where
@@ -63,7 +63,8 @@ std::string to_project_text(const std::vector<Setting>& settings);
 /// it. Throws as `refuse_special_file` does; a link to nothing is found, to be missed by who reads it.
 std::optional<std::string> find_project_file(const std::string& program);
 
-/// Throws `InputError` (Exit::machine_or_force) for a pipe or a device, whose reader could wait for ever.
+/// Throws `InputError` (ErrorKind::machine_or_force) for a pipe or a device, whose reader could wait for
+/// ever.
 void refuse_special_file(const std::string& file);
 
 }  // namespace counterflex

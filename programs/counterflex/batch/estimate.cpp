@@ -31,7 +31,7 @@ class TemporaryFolder {
     std::error_code ignored;
     path_ = (fs::temp_directory_path(ignored) / "counterflex-XXXXXX").native();
     if (::mkdtemp(path_.data()) == nullptr)
-      throw InputError(Exit::transient_io, {path_}, "cannot make a temporary folder");
+      throw InputError(ErrorKind::transient_io, {path_}, "cannot make a temporary folder");
   }
   ~TemporaryFolder() {
     std::error_code ignored;

@@ -18,7 +18,7 @@ class BatchFolder {
 
   /// Creates missing folders, and locks those that results are written to until it is destroyed. Warns if
   /// their file system has no locks. With `alone`, removes unfinished files of killed runs. Throws
-  /// `InputError` (Exit::transient_io) if another run holds a lock, or if a folder cannot be written.
+  /// `InputError` (ErrorKind::transient_io) if another run holds a lock, or if a folder cannot be written.
   BatchFolder(const Batch& batch, Use use, Console& console);
 
   /// Creates a folder of the state.

@@ -60,7 +60,7 @@ class Walk {
     if (!error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
       return names;
     const bool for_good = error == std::errc::permission_denied;
-    throw InputError(for_good ? Exit::machine_or_force : Exit::transient_io, {place.native()},
+    throw InputError(for_good ? ErrorKind::machine_or_force : ErrorKind::transient_io, {place.native()},
                      "cannot read the folder: " + error.message());
   }
 

@@ -7,6 +7,7 @@
 #include <charconv>
 
 #include "counterflex/files/input_error.hpp"
+#include "process/exit_status.hpp"
 #include "process/guarded.hpp"
 #include "run/compensate.hpp"
 
@@ -56,22 +57,22 @@ void do_job(const BatchJob& job, int threads, const SendLine& send) {
            },
        .solving = [&](int line, int lines) { send(fmt::format("{}{} {}", line_word, line, lines)); },
        .solved = [&](std::size_t waypoints) { send(fmt::format("{}{}", solved_word, waypoints)); }});
-  outcome.exit = guarded(console, [&] {
+  outcome.error_kind = guarded(console, [&] {
     return compensate_program(options, console,
                               [&](const Run& run, const RunEnd& end, const RunFiles& files) {
                                 note_report(run, end, files, outcome);
-                                return exit_of(run, end.report, console);
+                                return print_failure(run, end.report, console);
                               });
   });
   console.finish_warnings();
-  send(fmt::format("{}{}", outcome_word, to_json_line(outcome)));
+  send(fmt::format("{}{}", outcome_word, to_json_line(outcome, exit_number)));
 }
 
 JobNews news_of(std::string_view line) {
   const auto rest = [&](std::string_view word) { return line.substr(word.size()); };
   if (line.starts_with(line_word)) return {.done = share_of(rest(line_word))};
   if (line.starts_with(solved_word)) return {.waypoints = count_of(rest(solved_word))};
-  if (line.starts_with(outcome_word)) return {.outcome = outcome_of(rest(outcome_word))};
+  if (line.starts_with(outcome_word)) return {.outcome = outcome_of(rest(outcome_word), exit_number)};
   return {};
 }
 
@@ -88,7 +89,7 @@ JobOutcome lost_outcome(const BatchJob& job, int status) {
   const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
   const bool broke_down = signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
                           signal == SIGILL || (signal == 0 && WEXITSTATUS(status) < 128);
-  outcome.exit = broke_down ? Exit::internal : Exit::transient_io;
+  outcome.error_kind = broke_down ? ErrorKind::internal : ErrorKind::transient_io;
   outcome.error = fmt::format("{}: error: {}the process of this job {}{}", job.program,
                               broke_down ? "internal error: " : "", ending_text(status),
                               signal == SIGKILL ? ", perhaps because memory was short" : "");

@@ -92,13 +92,13 @@ class JobList {
     std::error_code ignored;
     const fs::file_status found = fs::status(pattern, ignored);
     if (fs::exists(found) && !fs::is_regular_file(found))
-      throw InputError(Exit::machine_or_force, entry.where,
+      throw InputError(ErrorKind::machine_or_force, entry.where,
                        fmt::format("'{}' is not a program file", pattern));
     if (!is_glob(pattern) || fs::exists(found)) return add(pattern, entry);
     std::vector<std::string> programs = files_matching(pattern);
     std::erase_if(programs, has_corrected_header);
     if (programs.empty())
-      throw InputError(Exit::machine_or_force, entry.where,
+      throw InputError(ErrorKind::machine_or_force, entry.where,
                        fmt::format("no uncorrected program matches '{}'", pattern));
     for (const std::string& program : programs) add(program, entry);
   }
@@ -114,7 +114,7 @@ class JobList {
     job.work = work_of(job);
     for (const std::string& file : files_read(job.options))
       if (file == "-")
-        throw InputError(Exit::machine_or_force, entry.where,
+        throw InputError(ErrorKind::machine_or_force, entry.where,
                          fmt::format("{}: a job cannot read standard input (-); name a file", program));
     found_.push_back({std::move(job), entry.where});
   }
@@ -125,7 +125,8 @@ class JobList {
       return options_of(Command::compensate, layers, program);
     } catch (const InputError& error) {
       if (!error.where().file.empty()) throw;
-      throw InputError(Exit::machine_or_force, entry.where, fmt::format("{}: {}", program, error.what()));
+      throw InputError(ErrorKind::machine_or_force, entry.where,
+                       fmt::format("{}: {}", program, error.what()));
     }
   }
 
@@ -134,7 +135,7 @@ class JobList {
     const auto file = find_project_file(program);
     if (!file) return none_;
     const auto [found, is_new] = projects_.try_emplace(*file);
-    if (is_new) found->second = read_project(read_input(*file, Exit::machine_or_force), *file);
+    if (is_new) found->second = read_project(read_input(*file, ErrorKind::machine_or_force), *file);
     return found->second;
   }
 
@@ -157,7 +158,7 @@ class JobList {
   }
 
   [[noreturn]] static void refuse(const FoundJob& found, const std::string& path, const std::string& why) {
-    throw InputError(Exit::machine_or_force, found.where,
+    throw InputError(ErrorKind::machine_or_force, found.where,
                      fmt::format("the output of {} would be {}, {}", found.job.program, path, why));
   }
 
@@ -180,7 +181,7 @@ std::vector<std::string> files_written(const BatchJob& job) {
 }
 
 Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags) {
-  const JobsFile jobs_file = read_jobs(read_input(file, Exit::machine_or_force), file);
+  const JobsFile jobs_file = read_jobs(read_input(file, ErrorKind::machine_or_force), file);
   const std::vector<Setting> environment = environment_of(from);
   Options whole;
   whole.command = Command::batch;

@@ -29,8 +29,8 @@ struct Batch {
 /// environment, project file of the program. Relative paths of the environment are relative to `from`. A
 /// missing program is a job that fails. A glob without a match is an error; globs skip corrected programs.
 /// `flags` override environment and file for settings of the whole batch. Throws `InputError`:
-/// Exit::machine_or_force, with the place, for errors of the file and for jobs that would write an input or
-/// output of another job; also as `files_matching`.
+/// ErrorKind::machine_or_force, with the place, for errors of the file and for jobs that would write an input
+/// or output of another job; also as `files_matching`.
 Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags);
 
 }  // namespace counterflex::cli

@@ -8,6 +8,7 @@
 #include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "process/exit_status.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"
 
@@ -22,7 +23,7 @@ std::multimap<std::string, JobOutcome> outcomes_in(const std::vector<std::string
   for (const std::string& file : files) {
     std::error_code missing;
     if (!std::filesystem::exists(file, missing)) continue;
-    Manifest manifest = read_manifest(read_input(file, Exit::machine_or_force), file);
+    Manifest manifest = read_manifest(read_input(file, ErrorKind::machine_or_force), file, exit_number);
     if (manifest.version != version) continue;
     for (JobOutcome& outcome : manifest.jobs) outcomes.emplace(outcome.output, std::move(outcome));
   }
@@ -43,7 +44,8 @@ std::vector<std::optional<JobOutcome>> BatchManifest::recorded(const std::vector
     const auto [begin, end] = by_output.equal_range(jobs_[i]->output);
     for (auto known = begin; known != end && !outcomes[i]; ++known) {
       const JobOutcome& outcome = known->second;
-      const bool failed = failed_too && fails_again(outcome.exit) && outcome.key == jobs_[i]->key;
+      const bool failed = failed_too && outcome.error_kind && fails_again(*outcome.error_kind) &&
+                          outcome.key == jobs_[i]->key;
       if (failed || is_proven(outcome, jobs_[i]->key, on_disk)) outcomes[i] = outcome;
     }
   }
@@ -85,7 +87,7 @@ void BatchManifest::save_sometimes() {
 
 void BatchManifest::save() {
   if (!changed_) return;
-  write_file(path_, to_text({version, plan_, ended()}));
+  write_file(path_, to_text({version, plan_, ended()}, exit_number));
   changed_ = false;
   saved_ = std::chrono::steady_clock::now();
 }

@@ -17,8 +17,8 @@ class BatchManifest {
   BatchManifest(std::string path, std::string plan, BatchJobs jobs);
 
   /// Takes over outcomes from `files`, manifests of this batch, for jobs whose options, inputs and outputs
-  /// match. Ignores missing files. Throws `InputError` (Exit::machine_or_force) for a damaged manifest, and
-  /// then changes nothing.
+  /// match. Ignores missing files. Throws `InputError` (ErrorKind::machine_or_force) for a damaged manifest,
+  /// and then changes nothing.
   void take_proven(const std::vector<std::string>& files);
 
   /// Takes over the outcomes of its own file and returns true if it has all jobs, each unchanged or sure to
@@ -36,7 +36,7 @@ class BatchManifest {
   /// call tries again.
   void save_sometimes();
 
-  /// Throws `InputError` (Exit::transient_io) if it cannot be written.
+  /// Throws `InputError` (ErrorKind::transient_io) if it cannot be written.
   void save();
 
  private:

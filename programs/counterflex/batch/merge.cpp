@@ -11,6 +11,7 @@
 #include "batch/globs.hpp"
 #include "batch/shards.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "process/exit_status.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"
 
@@ -34,7 +35,7 @@ std::set<int> counts_of_shards(const BatchFolder& folder) {
 }
 
 [[noreturn]] void refuse_shard(const std::string& path, int index, int count, const std::string& why) {
-  throw InputError(Exit::transient_io, {path},
+  throw InputError(ErrorKind::transient_io, {path},
                    fmt::format("{}; run --shard {}/{} --resume and merge again", why, index, count));
 }
 
@@ -56,7 +57,7 @@ class ShardResults {
     const std::string path = shard_manifest(folder_, index, count_);
     std::error_code ignored;
     if (!fs::exists(path, ignored)) refuse_shard(path, index, count_, "this shard is missing");
-    Manifest manifest = read_manifest(read_input(path, Exit::machine_or_force), path);
+    Manifest manifest = read_manifest(read_input(path, ErrorKind::machine_or_force), path, exit_number);
     if (manifest.plan != plan || manifest.version != version)
       refuse_shard(path, index, count_,
                    "this shard was done for other jobs, or for programs of another size");
@@ -68,7 +69,7 @@ class ShardResults {
     const auto found = outcomes_.find(job.output);
     if (found == outcomes_.end() || found->second.key != job.key)
       refuse_shard(path, index, count_, fmt::format("this shard has not come to {} yet", job.program));
-    if (found->second.exit == Exit::done && !is_proven(found->second, job.key, on_disk_))
+    if (!found->second.error_kind && !is_proven(found->second, job.key, on_disk_))
       refuse_shard(path, index, count_,
                    fmt::format("an input or an output of {} has been changed since", job.program));
   }
@@ -88,7 +89,7 @@ ShardResults complete_results(const Batch& batch, const BatchFolder& folder) {
       incomplete = std::current_exception();
     }
   if (incomplete) std::rethrow_exception(incomplete);
-  throw InputError(Exit::transient_io, {folder.state("shards")},
+  throw InputError(ErrorKind::transient_io, {folder.state("shards")},
                    "no shard has been done here; run them with --shard");
 }
 

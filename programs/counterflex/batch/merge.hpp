@@ -8,8 +8,8 @@ namespace counterflex::cli {
 
 /// Fills `manifest`, which has all jobs, with the results of the shards. If the shards were merged and
 /// removed before, takes over the results of that merge. Throws `InputError` and changes nothing if a shard
-/// is missing or its inputs or outputs have changed (Exit::transient_io), or if its manifest is damaged
-/// (Exit::machine_or_force).
+/// is missing or its inputs or outputs have changed (ErrorKind::transient_io), or if its manifest is damaged
+/// (ErrorKind::machine_or_force).
 void merge_shards(const Batch& batch, const BatchFolder& folder, BatchManifest& manifest);
 
 /// Whether there are results of shards to merge.

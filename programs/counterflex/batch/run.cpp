@@ -115,8 +115,8 @@ class JobsRun {
     if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;
     if (!outcome) outcome = lost_outcome(job(event.task), event.status);
     if (workers_.running() == 0) alone_ = false;
-    progress_.end(event.task, outcome->exit == Exit::done);
-    if (outcome->exit != Exit::done) console_.error(outcome->error);
+    progress_.end(event.task, !outcome->error_kind);
+    if (outcome->error_kind) console_.error(outcome->error);
     manifest_.set(missing_[event.task], std::move(*outcome));
   }
 

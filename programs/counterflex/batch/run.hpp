@@ -10,7 +10,7 @@ namespace counterflex::cli {
 /// Runs the jobs that have no outcome in `manifest` on `threads` processors, the largest first, and adds
 /// their outcomes to it. A job that is large compared with all others gets all processors. Returns the signal
 /// that stopped the run, if any: it stops within a second and abandons running jobs. Throws `InputError`
-/// (Exit::transient_io) if no process can be started.
+/// (ErrorKind::transient_io) if no process can be started.
 std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console);
 
 }  // namespace counterflex::cli

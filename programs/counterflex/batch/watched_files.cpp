@@ -56,7 +56,7 @@ WatchedFiles::WatchedFiles(std::string folder, std::vector<std::string> patterns
     : folder_(std::move(folder)), patterns_(std::move(patterns)) {
   std::error_code error;
   if (fs::is_directory(folder_, error)) return;
-  throw InputError(Exit::usage, {folder_},
+  throw InputError(ErrorKind::usage, {folder_},
                    "cannot watch the folder: " + (error ? error.message() : "it is not a folder"));
 }
 
@@ -75,7 +75,8 @@ void WatchedFiles::poll() {
     file.is_complete = true;
   }
   if (error)
-    throw InputError(Exit::transient_io, {folder_}, "cannot read the watched folder: " + error.message());
+    throw InputError(ErrorKind::transient_io, {folder_},
+                     "cannot read the watched folder: " + error.message());
   files_ = std::move(files);
   is_first_poll_ = false;
 }

@@ -20,10 +20,10 @@ struct FileVersion {
 /// and .svg.
 class WatchedFiles {
  public:
-  /// Throws `InputError` (Exit::usage) if `folder` is not a folder.
+  /// Throws `InputError` (ErrorKind::usage) if `folder` is not a folder.
   WatchedFiles(std::string folder, std::vector<std::string> patterns);
 
-  /// Throws `InputError` (Exit::transient_io) if the folder can no longer be read.
+  /// Throws `InputError` (ErrorKind::transient_io) if the folder can no longer be read.
   void poll();
 
   /// Sorted paths of files that have changed since `set_done`: those that were equal at the last two polls,

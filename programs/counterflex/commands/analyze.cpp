@@ -36,10 +36,10 @@ void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& wanted, const st
                   "nominal machine");
 }
 
-/// Reports the poses that were not solved. Returns the exit status.
-Exit judge(const AnalysisReport& report, const std::vector<Pose>& wanted, const Options& options,
-           Console& console) {
-  Exit exit = Exit::done;
+/// Reports the poses that were not solved. Returns the kind of error, or none.
+std::optional<ErrorKind> judge(const AnalysisReport& report, const std::vector<Pose>& wanted,
+                               const Options& options, Console& console) {
+  std::optional<ErrorKind> error;
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
     const bool corrected = !pose.corrected || pose.corrected->status == Status::converged;
@@ -53,39 +53,41 @@ Exit judge(const AnalysisReport& report, const std::vector<Pose>& wanted, const 
                                 to_string(status)));
     else
       warn_of_uncontrolled(pose, wanted[i], options.analyze.at[i], console);
-    if (status == Status::converged || exit == Exit::not_compensated) continue;
-    exit = status == Status::outside_travel ? Exit::limit : Exit::not_compensated;
+    if (status == Status::converged || error == ErrorKind::not_compensated) continue;
+    error = status == Status::outside_travel ? ErrorKind::limit : ErrorKind::not_compensated;
   }
-  return exit;
+  return error;
 }
 
-/// Throws (Exit::usage) with the list of known tools.
+/// Throws (ErrorKind::usage) with the list of known tools.
 const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
   const std::optional<long> number = read_tool_number(text);
   if (!number)
-    throw InputError(Exit::usage, {}, fmt::format("--tool is '{}', must be T and its number, as T3", text));
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--tool is '{}', must be T and its number, as T3", text));
   std::string known;
   for (const auto& entry : machine.tools) {
     if (entry.first == 0) continue;  // no known tool: [tool]
     if (entry.first == *number) return entry;
     known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
   }
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
                                known.empty() ? "none" : known));
 }
 
-/// Throws (Exit::usage) for wrong values or combinations, before files are read.
+/// Throws (ErrorKind::usage) for wrong values or combinations, before files are read.
 void check_values(const Options& options) {
   for (const std::string& text : options.analyze.at) pose_of("--at", text);
   if (options.analyze.hold) pose_of("--hold", *options.analyze.hold);
   if (options.analyze.curve) curve_of("--curve", *options.analyze.curve);
   if (!options.output) return;
   if (!options.analyze.curve)
-    throw InputError(Exit::usage, {}, "--output of analyze writes the points of --curve, which is not given");
+    throw InputError(ErrorKind::usage, {},
+                     "--output of analyze writes the points of --curve, which is not given");
   if (!options.output->ends_with(".csv"))
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("--output of analyze writes a file that ends in .csv, not '{}'", *options.output));
   check_output(options, curve_mark);
 }
@@ -104,11 +106,12 @@ AnalysisExtras extras_of(const Options& options, const Model& machine, const Mod
 }
 
 /// Reports the states of --hold and --curve that were not found.
-Exit judge_extras(const AnalysisReport& report, const Options& options, Console& console) {
-  Exit exit = Exit::done;
+std::optional<ErrorKind> judge_extras(const AnalysisReport& report, const Options& options,
+                                      Console& console) {
+  std::optional<ErrorKind> error;
   const auto fail = [&](const std::string& what) {
     console.error(what);
-    exit = Exit::not_compensated;
+    error = ErrorKind::not_compensated;
   };
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
@@ -120,7 +123,7 @@ Exit judge_extras(const AnalysisReport& report, const Options& options, Console&
                        to_string(pose.curve->status), options.analyze.at[i], pose.curve->points.size(),
                        report.curve->steps + 1));
   }
-  return exit;
+  return error;
 }
 
 void write_curve(const AnalysisReport& report, const Options& options) {
@@ -132,7 +135,7 @@ void write_curve(const AnalysisReport& report, const Options& options) {
 
 }  // namespace
 
-Exit run_analyze(const Options& options, Console& console) {
+std::optional<ErrorKind> run_analyze(const Options& options, Console& console) {
   check_values(options);
   const MachineInput input = read_machine_input(options);
   const Load load{options.analyze.force.value_or(Vector6::Zero()), false};
@@ -146,8 +149,8 @@ Exit run_analyze(const Options& options, Console& console) {
   if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
   write_result(options.json ? to_json(report) : to_text(report));
   write_curve(report, options);
-  const Exit exit = judge(report, wanted, options, console), extras = judge_extras(report, options, console);
-  return exit == Exit::done ? extras : exit;
+  const auto error = judge(report, wanted, options, console), extras = judge_extras(report, options, console);
+  return error ? error : extras;
 }
 
 }  // namespace counterflex::cli

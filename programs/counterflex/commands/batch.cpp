@@ -17,6 +17,7 @@
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/settings/project_file.hpp"
+#include "process/exit_status.hpp"
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
@@ -34,14 +35,15 @@ constexpr std::size_t rows_shown = 30;
 std::string enter_folder_of(const std::string& file, Console& console) {
   if (file == "-")
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         "the jobs file must be a file, not standard input: its paths are relative to its folder");
   refuse_special_file(file);
   const fs::path path(file);
   if (!path.has_parent_path()) return file;
   std::error_code error;
   fs::current_path(path.parent_path(), error);
-  if (error) throw InputError(Exit::machine_or_force, {file}, "cannot read the file: " + error.message());
+  if (error)
+    throw InputError(ErrorKind::machine_or_force, {file}, "cannot read the file: " + error.message());
   console.detail(fmt::format("in {}/", path.parent_path().native()));
   return path.filename().native();
 }
@@ -49,9 +51,9 @@ std::string enter_folder_of(const std::string& file, Console& console) {
 void check_flags(const Options& options) {
   const int modes =
       (options.batch.merge ? 1 : 0) + (options.batch.shard ? 1 : 0) + (options.batch.estimate ? 1 : 0);
-  if (modes > 1) throw InputError(Exit::usage, {}, "--shard, --merge and --estimate exclude each other");
+  if (modes > 1) throw InputError(ErrorKind::usage, {}, "--shard, --merge and --estimate exclude each other");
   if (options.batch.resume && (options.batch.merge || options.batch.estimate))
-    throw InputError(Exit::usage, {}, "--resume goes with a run or a --shard of it");
+    throw InputError(ErrorKind::usage, {}, "--resume goes with a run or a --shard of it");
 }
 
 /// Refuses to replace files that counterflex did not write. Called before any job starts.
@@ -64,7 +66,7 @@ void refuse_foreign_summary(const Batch& batch) {
 void write_summary(const Batch& batch, const std::vector<JobOutcome>& outcomes, const std::string& json) {
   FileWriter json_file(batch.folder + "/summary.json"), csv_file(batch.folder + "/summary.csv");
   json_file.write(json);
-  csv_file.write(summary_csv(outcomes));
+  csv_file.write(summary_csv(outcomes, exit_number));
   publish_together({&json_file, &csv_file});
 }
 
@@ -73,7 +75,7 @@ void remove_summary(const Batch& batch) {
   for (const char* name : {"/summary.json", "/summary.csv"}) {
     std::error_code error;
     if (fs::remove(batch.folder + name, error); error)
-      throw InputError(Exit::transient_io, {batch.folder + name},
+      throw InputError(ErrorKind::transient_io, {batch.folder + name},
                        "cannot remove the file: " + error.message());
   }
 }
@@ -82,15 +84,16 @@ void remove_summary(const Batch& batch) {
 void warn_of_older(const std::vector<JobOutcome>& outcomes, Console& console) {
   std::error_code ignored;
   for (const JobOutcome& outcome : outcomes)
-    if (outcome.exit != Exit::done && fs::exists(outcome.output, ignored))
+    if (outcome.error_kind && fs::exists(outcome.output, ignored))
       console.warning(outcome.output, 0,
                       fmt::format("not updated: compensation of {} failed", outcome.program));
 }
 
 /// Prints the table even if no file can be written, for example on a full disk.
-Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifest, Console& console) {
+std::optional<ErrorKind> conclude(const Options& options, const Batch& batch, BatchManifest& manifest,
+                                  Console& console) {
   const std::vector<JobOutcome> outcomes = manifest.ended();
-  const std::string json = summary_json(outcomes, version);
+  const std::string json = summary_json(outcomes, version, exit_number);
   std::exception_ptr unsaved;
   try {
     manifest.save();
@@ -102,13 +105,13 @@ Exit conclude(const Options& options, const Batch& batch, BatchManifest& manifes
   console.finish_warnings();
   write_result(options.json ? json : summary_table(outcomes, rows_shown));
   if (unsaved) std::rethrow_exception(unsaved);
-  return exit_of(outcomes);
+  return error_of(outcomes);
 }
 
 /// One line for scripts.
-Exit say_estimate(const Batch& batch) {
+ExitStatus say_estimate(const Batch& batch) {
   write_result(fmt::format("work_s={:.1f} jobs={}\n", estimated_seconds(batch), batch.jobs.size()));
-  return Exit::done;
+  return ExitStatus(std::nullopt);
 }
 
 /// Jobs that are unchanged since the last run.
@@ -121,12 +124,12 @@ void take_proven(const Options& options, const BatchFolder& folder, BatchManifes
 }
 
 /// Keeps the results of a run that was stopped.
-Exit saved(BatchManifest& manifest, int signal) {
+ExitStatus saved(BatchManifest& manifest, int signal) {
   manifest.save();
-  return static_cast<Exit>(status_of(signal));
+  return ExitStatus::of_signal(signal);
 }
 
-Exit run_shard(const Options& options, const Batch& batch, Console& console) {
+ExitStatus run_shard(const Options& options, const Batch& batch, Console& console) {
   const auto [index, count] = *options.batch.shard;
   const BatchFolder folder(batch, BatchFolder::Use::shared, console);
   folder.make_state("shards");
@@ -139,22 +142,22 @@ Exit run_shard(const Options& options, const Batch& batch, Console& console) {
   manifest.save();
   const std::vector<JobOutcome> outcomes = manifest.ended();
   const auto failed = std::count_if(outcomes.begin(), outcomes.end(),
-                                    [](const JobOutcome& o) { return o.exit != Exit::done; });
+                                    [](const JobOutcome& o) { return o.error_kind.has_value(); });
   write_result(fmt::format("shard {} of {}: {} jobs, {} failed\n", index, count, jobs.size(), failed));
-  return exit_of(outcomes);
+  return error_of(outcomes);
 }
 
-Exit run_merge(const Options& options, const Batch& batch, Console& console) {
+ExitStatus run_merge(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
   if (has_shards(folder)) remove_summary(batch);
   merge_shards(batch, folder, manifest);
-  const Exit exit = conclude(options, batch, manifest, console);
-  if (exit == Exit::done || fails_again(exit)) remove_shards(folder);  // otherwise the next try needs them
-  return exit;
+  const auto error = conclude(options, batch, manifest, console);
+  if (!error || fails_again(*error)) remove_shards(folder);  // otherwise the next try needs them
+  return error;
 }
 
-Exit run_all(const Options& options, const Batch& batch, Console& console) {
+ExitStatus run_all(const Options& options, const Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
   take_proven(options, folder, manifest, console);
@@ -162,14 +165,14 @@ Exit run_all(const Options& options, const Batch& batch, Console& console) {
   const auto stopped = do_missing(manifest, batch.threads, console);
   folder.sweep();
   if (stopped) return saved(manifest, *stopped);
-  const Exit exit = conclude(options, batch, manifest, console);
+  const auto error = conclude(options, batch, manifest, console);
   remove_shards(folder);  // of an abandoned earlier try
-  return exit;
+  return error;
 }
 
 }  // namespace
 
-Exit run_batch(const Options& options, Console& console) {
+ExitStatus run_batch(const Options& options, Console& console) {
   check_flags(options);
   std::error_code gone;
   const std::string from = fs::current_path(gone).native();

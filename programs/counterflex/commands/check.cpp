@@ -25,7 +25,7 @@ Checked check_file(const std::string& path, const Options& options, const Machin
                             : check_program(path, options, machine, console);
   } catch (const InputError& error) {
     console.error(error.what());
-    return {"", "", {{"file", path}, {"error", error.what()}}, error.exit()};
+    return {"", "", {{"file", path}, {"error", error.what()}}, error.kind()};
   }
 }
 
@@ -38,7 +38,7 @@ void add_sanity(const SanityChecks& checks, const Machine& machine, Checked& che
     refuse_wrong(checks, machine);
   } catch (const InputError& error) {
     console.error(error.what());
-    checked.exit = error.exit();
+    checked.error_kind = error.kind();
   }
 }
 
@@ -46,18 +46,18 @@ std::string row(std::string_view label, std::string_view text) {
   return fmt::format("{:<12} {}\n", label, text);
 }
 
-Exit run_check(const Options& options, Console& console) {
+std::optional<ErrorKind> run_check(const Options& options, Console& console) {
   std::optional<MachineInput> machine;
   if (!options.machine.empty()) {
     machine = read_machine_input(options);
     take_lengths(read_tool_lengths(options, &machine->machine), machine->machine);
   }
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
-  Exit exit = Exit::done;
+  std::optional<ErrorKind> first;
   std::string text;
   for (const std::string& path : options.check.files) {
     Checked checked = check_file(path, options, machine ? &*machine : nullptr, console);
-    if (exit == Exit::done) exit = checked.exit;
+    if (!first) first = checked.error_kind;
     if (!checked.text.empty())
       text += (text.empty() ? "" : "\n\n") + lines_without_controls(checked.text) + checked.sanity;
     files.push_back(std::move(checked.json));
@@ -67,7 +67,7 @@ Exit run_check(const Options& options, Console& console) {
     write_result(nlohmann::ordered_json{{"schema", "counterflex-check 1"}, {"files", files}}.dump(2) + "\n");
   else
     write_painted_result(text);
-  return exit;
+  return first;
 }
 
 }  // namespace counterflex::cli

@@ -216,7 +216,7 @@ nlohmann::ordered_json gravity_json(const Machine& machine) {
 }  // namespace
 
 Checked check_machine(const std::string& path, const Options&, Console& console) {
-  const Machine machine = read_machine(read_input(path, Exit::machine_or_force), path);
+  const Machine machine = read_machine(read_input(path, ErrorKind::machine_or_force), path);
   const Model model = prepare(machine);
   refuse_home(model, machine);
   const HomeFacts home = look_at_home(model);

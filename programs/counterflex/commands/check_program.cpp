@@ -163,14 +163,14 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
                              const Program& window, int line) {
   const Status status = nominal.go_to(at.model, at.target);
   if (status != Status::converged)
-    return Failure{Exit::not_compensated, line,
+    return Failure{ErrorKind::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
                    status};
   if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
     return std::nullopt;
   if (const auto word = ambiguous_integer_word(window, line))
-    return Failure{Exit::program_text, word->line, word->what};
-  return Failure{Exit::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
+    return Failure{ErrorKind::program_text, word->line, word->what};
+  return Failure{ErrorKind::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.
@@ -207,7 +207,7 @@ void check_reach(const Overview& program, ProgramReader reader, const MachineInp
   sanity.push_back(check_travel(input.model.mechanism, travel, failure));
   add_sanity(sanity, input.machine, checked, console);
   if (!failure) return;
-  checked.exit = failure->exit;
+  checked.error_kind = failure->kind;
   console.error(located(program.file, *failure));
 }
 
@@ -222,7 +222,7 @@ Checked check_program(const std::string& path, const Options& options, const Mac
   ProgramFile file = open_program("program", path);
   try {
     const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
-    Checked checked{text_of(facts), "", json_of(facts), Exit::done};
+    Checked checked{text_of(facts), "", json_of(facts)};
     if (machine != nullptr)
       check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
     file.bytes.refuse_change();  // the file was read more than once

@@ -1,22 +1,27 @@
 #pragma once
-/// The commands. Each returns the exit status. Throws `InputError` for errors of its inputs, before any file
-/// is written.
+/// The commands. Each returns the kind of its first error, or none. Throws `InputError` for errors of its
+/// inputs, before any file is written.
+#include <optional>
+
 #include "counterflex/files/input_error.hpp"
 #include "process/console.hpp"
+#include "process/exit_status.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {
 
-Exit run_compensate(const Options& options, Console& console);
-Exit run_predict(const Options& options, Console& console);
-Exit run_verify(const Options& options, Console& console);
-Exit run_compare(const Options& options, Console& console);
-Exit run_analyze(const Options& options, Console& console);
-Exit run_forces(const Options& options, Console& console);
-Exit run_check(const Options& options, Console& console);
-Exit run_batch(const Options& options, Console& console);
+std::optional<ErrorKind> run_compensate(const Options& options, Console& console);
+std::optional<ErrorKind> run_predict(const Options& options, Console& console);
+std::optional<ErrorKind> run_verify(const Options& options, Console& console);
+std::optional<ErrorKind> run_compare(const Options& options, Console& console);
+std::optional<ErrorKind> run_analyze(const Options& options, Console& console);
+std::optional<ErrorKind> run_forces(const Options& options, Console& console);
+std::optional<ErrorKind> run_check(const Options& options, Console& console);
+
+/// The exit status is that of a signal if one has stopped the batch.
+ExitStatus run_batch(const Options& options, Console& console);
 
 /// Compensates the programs that appear in a folder, until it is interrupted.
-Exit run_watch(const Options& options, Console& console);
+std::optional<ErrorKind> run_watch(const Options& options, Console& console);
 
 }  // namespace counterflex::cli

@@ -16,7 +16,7 @@ void name_runs(const Options& options, ReportFile& a, ReportFile& b) {
   if (options.compare.names.empty()) return tell_apart(a, b);
   if (options.compare.names.size() != 2)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("--name is given {} times; give it twice, in the order of the reports, or not at all",
                     options.compare.names.size()));
   a.name = options.compare.names[0];
@@ -45,7 +45,7 @@ void write_files(const ComparisonPaths& paths, const std::string& json, const st
 
 }  // namespace
 
-Exit run_compare(const Options& options, Console& console) {
+std::optional<ErrorKind> run_compare(const Options& options, Console& console) {
   refuse_stdin_twice(options);
   const ComparisonPaths paths = comparison_paths(options);
   const WithCurves with = options.report ? WithCurves::yes : WithCurves::no;
@@ -62,7 +62,7 @@ Exit run_compare(const Options& options, Console& console) {
     write_result(json);
   else
     write_painted_result(to_text(comparison, console.colour_out()));
-  return Exit::done;
+  return std::nullopt;
 }
 
 }  // namespace counterflex::cli

@@ -4,7 +4,7 @@
 
 namespace counterflex::cli {
 
-Exit run_compensate(const Options& options, Console& console) {
+std::optional<ErrorKind> run_compensate(const Options& options, Console& console) {
   return compensate_program(options, console, [&](const Run& run, const RunEnd& end, const RunFiles& files) {
     return tell_result(options, run, end, files, console);
   });

@@ -135,10 +135,11 @@ class MoveListing {
     if (profile_) profile_->write(profile_rows(program_, move));
   }
 
-  /// Throws `InputError` (Exit::program_text) if a profile would have no row.
+  /// Throws `InputError` (ErrorKind::program_text) if a profile would have no row.
   void finish(Console& console) {
     if (profile_ && is_first_)
-      throw InputError(Exit::program_text, {program_}, "has no feed move: no force profile can be written");
+      throw InputError(ErrorKind::program_text, {program_},
+                       "has no feed move: no force profile can be written");
     write(json_ ? json_foot(totals_) : table_foot(totals_));
     publish_together({if_any(profile_), if_any(page_)});
     if (to_stdout_) console.note(table_foot(totals_));
@@ -180,25 +181,25 @@ void list_moves(const PathInput& input, const ForceSource& source, const Run* ru
 
 }  // namespace
 
-Exit run_forces(const Options& options, Console& console) {
+std::optional<ErrorKind> run_forces(const Options& options, Console& console) {
   if (options.forces_table.materials) {
     write_result(materials_page(options.json));
-    return Exit::done;
+    return std::nullopt;
   }
-  if (options.program.empty()) throw InputError(Exit::usage, {}, "PROGRAM is required, or --materials");
+  if (options.program.empty()) throw InputError(ErrorKind::usage, {}, "PROGRAM is required, or --materials");
   check_output(options, profile_mark);
   if (options.machine.empty()) {
     BareRun run = prepare_bare_run(options, console);
     MoveListing listing(options, run.scan.program.file, acts_at_platform(run.force_input.source));
     list_moves({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
                run.force_input.source, nullptr, run.scan.program.lines, listing, console);
-    return Exit::done;
+    return std::nullopt;
   }
   const auto run = prepare_run(options, console);
   MoveListing listing(options, run->program.file, acts_at_platform(run->force_input.source));
   list_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
              run->force_input.source, run.get(), run->program.lines, listing, console);
-  return Exit::done;
+  return std::nullopt;
 }
 
 }  // namespace counterflex::cli

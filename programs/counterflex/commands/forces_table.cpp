@@ -31,24 +31,25 @@ nlohmann::ordered_json number_or_null(double value, int decimals) {
 
 /// Throws if a profile of steps in the feed frame cannot represent the force of a move.
 void refuse_move(const std::string& program, const MoveForce& move) {
-  const auto refuse = [&](Exit exit, const std::string& why) {
-    throw InputError(exit, {program, move.line, 1}, why);
+  const auto refuse = [&](ErrorKind kind, const std::string& why) {
+    throw InputError(kind, {program, move.line, 1}, why);
   };
   if (move.comment_altered)
-    refuse(Exit::usage,
+    refuse(ErrorKind::usage,
            "a FORCE comment gives the force of this move; --load-scale and --air-above cannot change it in a "
            "profile: give them to the command that reads the profile");
   if (move.comment) return;
   constexpr std::string_view instead = "give the other commands the same forces as this one, or use --json";
   if (move.only_z)
-    refuse(Exit::machine_or_force,
+    refuse(ErrorKind::machine_or_force,
            fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile "
                        "in the feed frame cannot represent it; {}",
                        move.largest_N, instead));
   if (move.steps.empty())
-    refuse(Exit::machine_or_force, fmt::format("the force, {:.6g} N at most, changes along this move: a "
-                                               "profile of steps in the feed frame cannot represent it; {}",
-                                               move.largest_N, instead));
+    refuse(ErrorKind::machine_or_force,
+           fmt::format("the force, {:.6g} N at most, changes along this move: a "
+                       "profile of steps in the feed frame cannot represent it; {}",
+                       move.largest_N, instead));
 }
 
 }  // namespace

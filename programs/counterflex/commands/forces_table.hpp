@@ -39,8 +39,8 @@ inline constexpr std::string_view profile_mark = "# Forces of ";
 
 /// A profile by path length in the feed frame. Rows are at starts of moves and at steps of the force. Moves
 /// without a force have zeros, moves under a FORCE comment have no row. `profile_rows` throws `InputError`:
-/// Exit::machine_or_force if steps in the feed frame cannot represent the force, Exit::usage if --load-scale
-/// or --air-above would change the force of a comment.
+/// ErrorKind::machine_or_force if steps in the feed frame cannot represent the force, ErrorKind::usage if
+/// --load-scale or --air-above would change the force of a comment.
 std::string profile_head(const std::string& program, bool at_platform);
 std::string profile_rows(const std::string& program, const MoveForce& move);
 

@@ -31,7 +31,7 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, C
 
 }  // namespace
 
-Exit run_predict(const Options& options, Console& console) {
+std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);

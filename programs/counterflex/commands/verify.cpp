@@ -63,7 +63,7 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
 
 }  // namespace
 
-Exit run_verify(const Options& options, Console& console) {
+std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);

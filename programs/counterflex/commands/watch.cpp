@@ -18,6 +18,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
 #include "process/console.hpp"
+#include "process/exit_status.hpp"
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
 #include "run/corrected_header.hpp"
@@ -49,7 +50,7 @@ BatchJob job_for(const Options& watch, const std::string& program) {
 }
 
 [[noreturn]] void refuse_shared(const char* option, const std::string& path) {
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("{} of every program would be {}; give a folder that ends in /, or a pattern "
                                "such as {{name}}_CF{{ext}}",
                                option, path));
@@ -64,7 +65,7 @@ void refuse_shared_outputs(const Options& watch) {
     refuse_shared("--report", *one.options.report);
   if (one.options.plot && one.options.plot == other.options.plot) refuse_shared("--plot", *one.options.plot);
   if (canonical_name(one.output) == canonical_name(one.program))
-    throw InputError(Exit::usage, {watch.watch.folder},
+    throw InputError(ErrorKind::usage, {watch.watch.folder},
                      "corrected programs would replace their originals: give another folder with --output");
 }
 
@@ -74,7 +75,7 @@ void check_watch(const Options& options) {
   read.push_back(options.machine);
   if (options.tool_table) read.push_back(*options.tool_table);
   if (std::ranges::find(read, "-") != read.end())
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      "standard input (-) can be read only once, not for every program of a folder");
   refuse_shared_outputs(options);
   const MachineInput machine = read_machine_input(options);
@@ -89,7 +90,7 @@ nlohmann::ordered_json or_null(const std::optional<double>& number) {
 std::string json_line(const JobOutcome& outcome) {
   const nlohmann::ordered_json line{
       {"program", utf8_of_bytes(outcome.program)}, {"output", outcome.output},
-      {"exit", static_cast<int>(outcome.exit)},    {"verdict", outcome.verdict},
+      {"exit", exit_number(outcome.error_kind)},   {"verdict", outcome.verdict},
       {"verdict_reason", outcome.verdict_reason},  {"error", outcome.error},
       {"before_mm", or_null(outcome.before_mm)},   {"after_mm", or_null(outcome.after_mm)}};
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
@@ -104,8 +105,8 @@ std::string text_line(const JobOutcome& outcome) {
       outcome.verdict_reason.empty() ? "" : fmt::format(" ({})", outcome.verdict_reason);
   const std::string begin =
       fmt::format("{}{}: {}", outcome.verdict, reason, without_controls(outcome.program));
-  if (outcome.exit != Exit::done)
-    return fmt::format("{}: not written (exit status {})\n", begin, static_cast<int>(outcome.exit));
+  if (outcome.error_kind)
+    return fmt::format("{}: not written (exit status {})\n", begin, exit_number(outcome.error_kind));
   return fmt::format("{} -> {}: {} before, {} after\n", begin, without_controls(outcome.output),
                      mm_text(outcome.before_mm, 3), mm_text(outcome.after_mm, 4));
 }
@@ -121,7 +122,7 @@ JobOutcome outcome_of_process(const BatchJob& job) {
       if (auto sent = news_of(event.line).outcome) outcome = std::move(sent);
       if (event.ended && !outcome) outcome = lost_outcome(job, event.status);
     }
-    const bool is_lost = workers.running() == 0 && outcome->exit != Exit::done;
+    const bool is_lost = workers.running() == 0 && outcome->error_kind.has_value();
     const auto signal = signals.take(is_lost ? hesitation_ms : 0);
     if (!signal) continue;
     workers.end_all(patience_ms);
@@ -146,7 +147,8 @@ class Watch {
           fmt::format("its file system has no locks ({}): a second watch is not refused", lock_.why_not()));
   }
 
-  Exit run() {
+  /// Returns the kind of the first error.
+  std::optional<ErrorKind> run() {
     files_.poll();
     do {
       std::this_thread::sleep_for(between_polls);
@@ -194,12 +196,12 @@ class Watch {
     }
   }
 
-  /// Throws `InputError` (Exit::usage) if another program of the folder has one of the outputs.
+  /// Throws `InputError` (ErrorKind::usage) if another program of the folder has one of the outputs.
   void claim_outputs(const BatchJob& job) {
     for (const std::string& file : files_written(job)) {
       const auto owner = owners_.find(canonical_name(file));
       if (owner == owners_.end() || owner->second == job.program || !files_.contains(owner->second)) continue;
-      throw InputError(Exit::usage, {job.program},
+      throw InputError(ErrorKind::usage, {job.program},
                        fmt::format("its output would be {}, which is also the output of {}: give one of them "
                                    "another name, or name outputs with {{name}}{{ext}}",
                                    file, owner->second));
@@ -216,10 +218,10 @@ class Watch {
       claim_outputs(job);
       outcome = outcome_of_process(job);
     } catch (const InputError& wrong) {
-      outcome.exit = wrong.exit();
+      outcome.error_kind = wrong.kind();
       outcome.error = wrong.what();
     }
-    const bool may_pass = outcome.exit == Exit::transient_io;
+    const bool may_pass = outcome.error_kind == ErrorKind::transient_io;
     const bool is_reported = may_pass && retries_.contains(path);
     retries_.erase(path);
     if (may_pass) retries_[path] = Clock::now() + retry_after;
@@ -227,11 +229,11 @@ class Watch {
   }
 
   void report(const JobOutcome& outcome) {
-    if (first_failure_ == Exit::done) first_failure_ = outcome.exit;
+    if (!first_failure_) first_failure_ = outcome.error_kind;
     if (!outcome.error.empty()) console_.error(outcome.error);
     write_result(options_.json ? json_line(outcome) : text_line(outcome));
     std::error_code ignored;
-    if (outcome.exit != Exit::done && fs::is_regular_file(outcome.output, ignored))
+    if (outcome.error_kind && fs::is_regular_file(outcome.output, ignored))
       console_.warning(outcome.output, 0,
                        fmt::format("not updated: compensation of {} failed", outcome.program));
     console_.finish_warnings();
@@ -244,12 +246,12 @@ class Watch {
   std::map<std::string, std::string> owners_;  ///< program by output
   std::map<std::string, Clock::time_point>
       retries_;  ///< failed programs that may succeed later, and when to try again
-  Exit first_failure_ = Exit::done;
+  std::optional<ErrorKind> first_failure_;
 };
 
 }  // namespace
 
-Exit run_watch(const Options& options, Console& console) {
+std::optional<ErrorKind> run_watch(const Options& options, Console& console) {
   check_watch(options);
   Watch watch(options, console);
   if (!options.watch.once) console.detail(fmt::format("watching {}", options.watch.folder));

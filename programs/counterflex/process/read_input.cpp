@@ -7,13 +7,13 @@
 
 namespace counterflex::cli {
 
-void refuse_folder(const std::string& path, Exit exit) {
+void refuse_folder(const std::string& path, ErrorKind unreadable) {
   std::error_code ignored;
   if (path != "-" && std::filesystem::is_directory(path, ignored))
-    throw InputError(exit, {path}, "cannot read the file: it is a folder");
+    throw InputError(unreadable, {path}, "cannot read the file: it is a folder");
 }
 
-std::string read_input(const std::string& path, Exit unreadable) {
+std::string read_input(const std::string& path, ErrorKind unreadable) {
   refuse_folder(path, unreadable);
   return or_unreadable(unreadable, [&] { return read_file(path); });
 }

@@ -62,7 +62,7 @@ AwaitedSignals::AwaitedSignals() {
   ::pthread_sigmask(SIG_BLOCK, &awaited, nullptr);
   descriptor_ = ::signalfd(-1, &awaited, SFD_CLOEXEC | SFD_NONBLOCK);
   if (descriptor_ < 0)
-    throw InputError(Exit::transient_io, {},
+    throw InputError(ErrorKind::transient_io, {},
                      fmt::format("cannot wait for signals: {}", std::strerror(errno)));
 }
 

@@ -19,7 +19,7 @@ void end_on_signals();
 /// Blocks signals, so that they do not end the process. The process polls for them.
 class AwaitedSignals {
  public:
-  /// Throws `InputError` (Exit::transient_io) if the system has no more descriptors.
+  /// Throws `InputError` (ErrorKind::transient_io) if the system has no more descriptors.
   AwaitedSignals();
   ~AwaitedSignals();
   AwaitedSignals(const AwaitedSignals&) = delete;

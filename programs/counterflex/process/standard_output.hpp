@@ -5,7 +5,7 @@
 namespace counterflex::cli {
 
 /// Lines of text, or JSON, on standard output, without control characters. Throws `InputError`
-/// (Exit::transient_io).
+/// (ErrorKind::transient_io).
 void write_result(std::string_view text);
 
 /// The same for text with colours, whose names and texts from inputs are without control characters already.

@@ -22,7 +22,8 @@ namespace counterflex::cli {
 namespace {
 
 [[noreturn]] void fail_starting() {
-  throw InputError(Exit::transient_io, {}, fmt::format("cannot start a process: {}", std::strerror(errno)));
+  throw InputError(ErrorKind::transient_io, {},
+                   fmt::format("cannot start a process: {}", std::strerror(errno)));
 }
 
 void send_line(int pipe, std::string_view line) {

@@ -22,8 +22,8 @@ struct WorkerEvent {
 };
 
 /// The workers of a process without other threads. They are killed when it ends for any reason, so that they
-/// do not continue to write. All members throw `InputError` (Exit::transient_io) if the system has no more
-/// processes or pipes.
+/// do not continue to write. All members throw `InputError` (ErrorKind::transient_io) if the system has no
+/// more processes or pipes.
 class Workers {
  public:
   Workers();

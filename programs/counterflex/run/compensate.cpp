@@ -73,7 +73,8 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
 
 }  // namespace
 
-Exit compensate_program(const Options& options, Console& console, const ReportEnd& report_end) {
+std::optional<ErrorKind> compensate_program(const Options& options, Console& console,
+                                            const ReportEnd& report_end) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
@@ -83,8 +84,8 @@ Exit compensate_program(const Options& options, Console& console, const ReportEn
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
   run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
-  if (failure && failure->exit == Exit::usage)
-    return exit_of(*run, failure, console);  // no result: an option is wrong
+  if (failure && failure->kind == ErrorKind::usage)
+    return print_failure(*run, failure, console);  // no result: an option is wrong
   return report_end(
       *run, finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
       files);

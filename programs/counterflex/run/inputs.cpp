@@ -36,7 +36,8 @@ std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine
 bool is_cutting_model(const std::string& path) {
   const std::string extension = path == "-" ? ".csv" : std::filesystem::path(path).extension().string();
   if (extension == ".csv" || extension == ".toml") return extension == ".toml";
-  throw InputError(Exit::usage, {path}, fmt::format("a force file is .csv or .toml, not '{}'", extension));
+  throw InputError(ErrorKind::usage, {path},
+                   fmt::format("a force file is .csv or .toml, not '{}'", extension));
 }
 
 InputFile input_file(const std::string& role, const std::string& path, const std::string& bytes) {
@@ -45,7 +46,7 @@ InputFile input_file(const std::string& role, const std::string& path, const std
 
 std::vector<ForceRule> read_cutting_models(const std::string& role, const std::string& path,
                                            std::vector<InputFile>& files) {
-  const std::string text = read_input(path, Exit::machine_or_force);
+  const std::string text = read_input(path, ErrorKind::machine_or_force);
   files.push_back(input_file(role, path, text));
   return read_force_toml(text, shown_name(path));
 }
@@ -53,9 +54,9 @@ std::vector<ForceRule> read_cutting_models(const std::string& role, const std::s
 /// Reads a profile without holding it in memory: it may be as long as the program.
 std::vector<ForceRule> read_profile(const std::string& role, const std::string& path,
                                     std::vector<InputFile>& files) {
-  refuse_folder(path, Exit::machine_or_force);
-  FileReader bytes = or_unreadable(Exit::machine_or_force, [&] { return FileReader(path); });
-  files.push_back({role, path, or_unreadable(Exit::machine_or_force, [&] { return sha256(bytes); })});
+  refuse_folder(path, ErrorKind::machine_or_force);
+  FileReader bytes = or_unreadable(ErrorKind::machine_or_force, [&] { return FileReader(path); });
+  files.push_back({role, path, or_unreadable(ErrorKind::machine_or_force, [&] { return sha256(bytes); })});
   std::vector<ForceRule> rules = read_force_csv(bytes, shown_name(path));
   bytes.refuse_change();  // the file was read twice
   return rules;
@@ -67,7 +68,7 @@ void refuse_home(const Model& model, const Machine& machine) {
   const Location& home_at = machine.home_at;
   if (model.home_status != Status::converged)
     throw InputError(
-        Exit::machine_or_force, home_at,
+        ErrorKind::machine_or_force, home_at,
         fmt::format("home does not close: its chains miss each other by {:.3g} (m and rad), at most 1e-7 is "
                     "allowed; check [home], the joints' home values and the chains' lengths",
                     model.home_gap));
@@ -75,19 +76,19 @@ void refuse_home(const Model& model, const Machine& machine) {
   const double condition = actuator_jacobian(model, model.home).condition;
   if (!(condition <= largest_condition))
     throw InputError(
-        Exit::machine_or_force, home_at,
+        ErrorKind::machine_or_force, home_at,
         fmt::format("home is singular: the matrix from actuators to the tip has condition {:.3g}, at most "
                     "1e6 is allowed; give joints other home values (home_deg, home_mm), or [home]",
                     condition));
   if (model.gravity_status != Status::converged)
-    throw InputError(Exit::machine_or_force, machine.gravity.reference_at,
+    throw InputError(ErrorKind::machine_or_force, machine.gravity.reference_at,
                      fmt::format("gravity_reference is \"home\", but no actuator values hold the perfect "
                                  "machine at home under its weight: it is {}",
                                  to_string(model.gravity_status)));
 }
 
 MachineInput read_machine_input(const Options& options) {
-  const std::string text = read_input(options.machine, Exit::machine_or_force);
+  const std::string text = read_input(options.machine, ErrorKind::machine_or_force);
   const std::string name = shown_name(options.machine);
   MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
   override_work(options, input.machine);
@@ -101,7 +102,7 @@ ToolLengths read_tool_lengths(const Options& options, const Machine* machine) {
   std::map<long, double> lengths;
   for (const auto& [number, length_mm] : options.tool_lengths_mm) lengths[number] = length_mm * mm;
   if (options.tool_table) {
-    const std::string text = read_input(*options.tool_table, Exit::machine_or_force);
+    const std::string text = read_input(*options.tool_table, ErrorKind::machine_or_force);
     tools.file = input_file("tool-table", *options.tool_table, text);
     lengths.merge(read_tool_table(text, shown_name(*options.tool_table)));
   }
@@ -147,14 +148,14 @@ void blame_dialect(const InputError& error, const Options& options, const Machin
   const bool of_machine = of_dialect && machine != nullptr && !options.dialect;
   if (!of_machine) throw;
   throw InputError(
-      Exit::program_text, {program},
+      ErrorKind::program_text, {program},
       fmt::format("the machine file's dialect \"{}\" is not supported yet; choose another with --dialect",
                   machine->control.dialect));
 }
 
 ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
                                 const Machine* machine, const ReadOptions& read) {
-  std::string text = read_input(path, Exit::usage);
+  std::string text = read_input(path, ErrorKind::usage);
   const InputFile file = input_file(role, path, text);
   try {
     return {file, read_program(std::move(text), shown_name(path), read)};
@@ -164,7 +165,7 @@ ProgramInput read_program_input(const std::string& role, const std::string& path
 }
 
 ProgramFile open_program(const std::string& role, const std::string& path) {
-  refuse_folder(path, Exit::usage);
+  refuse_folder(path, ErrorKind::usage);
   return {{role, path, {}}, FileReader(path)};
 }
 

@@ -1,5 +1,5 @@
 #pragma once
-/// Reads the inputs of a run. All functions throw `InputError` with the exit status for the kind of input.
+/// Reads the inputs of a run. All functions throw `InputError` of the kind of their input.
 #include <map>
 #include <memory>
 #include <optional>
@@ -26,8 +26,8 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
-/// Throws (Exit::machine_or_force) if home does not close or is singular, or if gravity_reference is "home"
-/// and no actuator values hold the machine there under its weight.
+/// Throws (ErrorKind::machine_or_force) if home does not close or is singular, or if gravity_reference is
+/// "home" and no actuator values hold the machine there under its weight.
 void refuse_home(const Model& model, const Machine& machine);
 
 /// Tool lengths by number: from --tool-length, else from --tool-table, else from `machine`.

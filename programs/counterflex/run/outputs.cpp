@@ -44,12 +44,12 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
   if (path == "-") return;
   std::error_code ignored;
   if (path.empty() || fs::is_directory(path, ignored))
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("cannot write to '{}': it is not the name of a file", path));
   const fs::path folder = fs::path(path).parent_path();
   const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
   if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
-    throw InputError(Exit::usage, {path}, "cannot write the file: its folder does not exist; create it");
+    throw InputError(ErrorKind::usage, {path}, "cannot write the file: its folder does not exist; create it");
 }
 
 /// Refuses control characters in names of outputs: a foreign project file must not control the terminal.
@@ -58,7 +58,7 @@ void refuse_control_characters(const std::vector<std::string>& outputs, const st
   if (without_controls(program) != program) return;
   for (const std::string& path : outputs)
     if (without_controls(path) != path)
-      throw InputError(Exit::usage, {},
+      throw InputError(ErrorKind::usage, {},
                        fmt::format("the name of the output '{}' has control characters; give another name",
                                    without_controls(path)));
 }
@@ -69,11 +69,11 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
     check_place(outputs[i], made);
     for (const std::string& input : inputs)
       if (same_file(outputs[i], input))
-        throw InputError(Exit::usage, {outputs[i]},
+        throw InputError(ErrorKind::usage, {outputs[i]},
                          fmt::format("the output would replace the input {}; give another name", input));
     for (std::size_t k = 0; k < i; ++k)
       if (same_file(outputs[i], outputs[k]))
-        throw InputError(Exit::usage, {outputs[i]},
+        throw InputError(ErrorKind::usage, {outputs[i]},
                          "two outputs have this name; give one of them another name");
   }
 }
@@ -101,13 +101,14 @@ void sweep_left(const OutputPaths& paths) {
 
 std::string stem_of_report(const Options& options) {
   if (options.report->empty() || *options.report == "-")
-    throw InputError(Exit::usage, {}, "--report needs the stem of file names, not standard output (-)");
+    throw InputError(ErrorKind::usage, {}, "--report needs the stem of file names, not standard output (-)");
   return *options.report;
 }
 
 std::string path_of_plot(const std::string& path) {
   if (fs::path(path).extension() != ".svg")
-    throw InputError(Exit::usage, {}, fmt::format("--plot writes a file that ends in .svg, not '{}'", path));
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--plot writes a file that ends in .svg, not '{}'", path));
   return path;
 }
 
@@ -135,7 +136,7 @@ OutputPaths output_paths(const Options& options) {
   if (options.plot) outputs.push_back(paths.plot = path_of_plot(*options.plot));
   if (paths.program == "-" && options.json)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
   refuse_control_characters(outputs, options.program);
   check_paths(outputs, inputs_of(options), options.folders);
@@ -149,7 +150,7 @@ void refuse_foreign(const std::vector<OwnFile>& files) {
     if (file.path.empty() || file.path == "-" || !fs::is_regular_file(file.path, error)) continue;
     if (fs::file_size(file.path, error) == 0 || file.is_own(file.path)) continue;
     throw InputError(
-        Exit::usage, {file.path},
+        ErrorKind::usage, {file.path},
         "the file exists, and counterflex did not write it; give another name, or --force-overwrite "
         "to replace it");
   }
@@ -188,12 +189,12 @@ void check_output(const Options& options, std::string_view mark) {
   if (!options.output) return;
   if (*options.output == "-" && options.json)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         "the profile and the document of --json cannot both go to standard output; give -o a file");
   check_paths({*options.output}, inputs_of(options));
   const std::string extension = fs::path(*options.output).extension().string();
   if (*options.output != "-" && extension != ".csv")
-    throw InputError(Exit::usage, {*options.output},
+    throw InputError(ErrorKind::usage, {*options.output},
                      fmt::format("a table is written to a .csv file, not to '{}'", extension));
   if (!options.force_overwrite) refuse_foreign({marked_file(*options.output, mark)});
 }

@@ -25,9 +25,9 @@ struct OutputPaths {
 };
 
 /// The paths of outputs. For `compensate` this includes the corrected program: by default NAME.comp.EXT
-/// beside the input, or standard output for standard input. Throws `InputError`: Exit::usage if a path is an
-/// input (also through links), if two paths are equal, or if the program and --json both use standard output;
-/// Exit::transient_io if a folder does not exist.
+/// beside the input, or standard output for standard input. Throws `InputError`: ErrorKind::usage if a path
+/// is an input (also through links), if two paths are equal, or if the program and --json both use standard
+/// output; ErrorKind::transient_io if a folder does not exist.
 OutputPaths output_paths(const Options& options);
 
 /// One name for all paths of a file, which may not exist.
@@ -42,7 +42,7 @@ struct OwnFile {
 /// A file that is counterflex's own if `mark` is in its first bytes. `mark` outlives it.
 OwnFile marked_file(const std::string& path, std::string_view mark);
 
-/// Throws `InputError` (Exit::usage) if one of these files exists, is not empty and was not written by
+/// Throws `InputError` (ErrorKind::usage) if one of these files exists, is not empty and was not written by
 /// counterflex.
 void refuse_foreign(const std::vector<OwnFile>& files);
 
@@ -65,7 +65,7 @@ void check_output(const Options& options, std::string_view mark);
 /// The files of a run, written under temporary names. They get their names only when the run succeeds.
 class RunFiles {
  public:
-  /// Throws `InputError` (Exit::transient_io), as all members, if a file cannot be written. `hashed`:
+  /// Throws `InputError` (ErrorKind::transient_io), as all members, if a file cannot be written. `hashed`:
   /// computes the hashes of the files.
   RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed = false);
 
@@ -94,7 +94,7 @@ class RunFiles {
 
 /// Publishes all files, or no file if one of them cannot be written. First completes all, then writes to
 /// streams, then renames the files with signals blocked. Ignores nullptr. Throws `InputError`
-/// (Exit::transient_io).
+/// (ErrorKind::transient_io).
 void publish_together(std::vector<FileWriter*> files);
 
 /// nullptr if there is no such output.

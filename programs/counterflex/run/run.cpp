@@ -11,6 +11,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/report/formats.hpp"
+#include "process/exit_status.hpp"
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"
 #include "run/failed_line.hpp"
@@ -172,7 +173,7 @@ void refuse_stdin_twice(const Options& options) {
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
   paths.insert(paths.end(), options.compare.reports.begin(), options.compare.reports.end());
   const auto count = std::count(paths.begin(), paths.end(), "-");
-  if (count > 1) throw InputError(Exit::usage, {}, "standard input (-) can be only one of the inputs");
+  if (count > 1) throw InputError(ErrorKind::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
@@ -219,11 +220,11 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
 void refuse_what_cannot_be_compensated(const Run& run) {
   if (run.machine.machine.controlled.empty())
     throw InputError(
-        Exit::machine_or_force, {shown_name(run.machine.file.path)},
+        ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
         "controlled = [] allows analyze only; list the components of the tip that the program controls");
   if (run.is_corrected)
     throw InputError(
-        Exit::program_text, {run.program.file, 1, 1},
+        ErrorKind::program_text, {run.program.file, 1, 1},
         "the program has the header of a corrected program (COUNTERFLEX 1); a program is not compensated "
         "twice");
 }
@@ -278,7 +279,7 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
       for (const Vector3& p : points_along(segment.wanted))
         if (std::abs(p[c] - (*first_)[c]) > 1e-9)
           throw InputError(
-              Exit::program_text, {run_.program.file, segment.line, 1},
+              ErrorKind::program_text, {run_.program.file, segment.line, 1},
               fmt::format("the move changes {} of the machine frame from {:.6g} to {:.6g} mm, which the "
                           "machine does not control",
                           "xyz"[c], (*first_)[c] / mm, p[c] / mm));
@@ -315,10 +316,11 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
   if (options.report || options.json) add_texts(report, run.file.bytes);
+  report.exit_status = exit_number(report.error_kind);
   std::string json = to_json(report);
   if (tally.curves()) files.add_report(report, json, *tally.curves(), run.file.bytes);
   run.file.bytes.refuse_change();  // the file was read more than once
-  files.publish(report.exit == Exit::done);
+  files.publish(!report.error_kind);
   return {std::move(report), std::move(json)};
 }
 
@@ -335,8 +337,8 @@ std::string result_text(const Options& options, const RunReport& report, const R
 
 }  // namespace
 
-Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
-                 Console& console) {
+std::optional<ErrorKind> tell_result(const Options& options, const Run& run, const RunEnd& end,
+                                     const RunFiles& files, Console& console) {
   print_warnings(run, end.report, console);
   console.finish_warnings();
   if (options.json)
@@ -347,22 +349,23 @@ Exit tell_result(const Options& options, const Run& run, const RunEnd& end, cons
     write_painted_result(result_text(options,
                                      console.is_one_terminal() ? without_warnings(end.report) : end.report,
                                      files, console.colour_out(), console.marks_out()));
-  return exit_of(run, end.report, console);
+  return print_failure(run, end.report, console);
 }
 
-Exit exit_of(const Run& run, const RunReport& report, Console& console) {
-  return exit_of(run, report.failure ? report.failure : refusal_of(report), console);
+std::optional<ErrorKind> print_failure(const Run& run, const RunReport& report, Console& console) {
+  return print_failure(run, report.failure ? report.failure : refusal_of(report), console);
 }
 
-Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console) {
-  if (!failure) return Exit::done;
+std::optional<ErrorKind> print_failure(const Run& run, const std::optional<Failure>& failure,
+                                       Console& console) {
+  if (!failure) return std::nullopt;
   console.error(run.corrected_name.empty() ? located(run.program.file, *failure)
                                            : located_in_corrected(run, *failure));
-  return failure->exit;
+  return failure->kind;
 }
 
-Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
-             Console& console) {
+std::optional<ErrorKind> deliver(const Options& options, Run& run, RunReport report, const RunTally& tally,
+                                 RunFiles& files, Console& console) {
   const RunEnd end = finish_run(options, run, std::move(report), tally, files);
   return tell_result(options, run, end, files, console);
 }

@@ -37,15 +37,15 @@ struct Run {
   RunContext context() const;
 };
 
-/// Throws `InputError` (Exit::usage) if standard input is used more than once.
+/// Throws `InputError` (ErrorKind::usage) if standard input is used more than once.
 void refuse_stdin_twice(const Options& options);
 
 /// Reads all inputs, the program to its end, and prints remarks as warnings. Throws `InputError` before any
 /// file is written.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 
-/// Throws for a machine that controls nothing (Exit::machine_or_force) and for a program with the header of a
-/// corrected one (Exit::program_text).
+/// Throws for a machine that controls nothing (ErrorKind::machine_or_force) and for a program with the header
+/// of a corrected one (ErrorKind::program_text).
 void refuse_what_cannot_be_compensated(const Run& run);
 
 /// Whether loads along the path are computed: if causes are requested, or if the machine has load limits.
@@ -62,8 +62,8 @@ class Windows {
   const ProgramReader& reader() const { return reader_; }
   JobWindows& jobs() { return jobs_; }
 
-  /// Called for a window that has been read: shows progress. Throws `InputError` (Exit::program_text) for a
-  /// move along an axis that the machine does not control.
+  /// Called for a window that has been read: shows progress. Throws `InputError` (ErrorKind::program_text)
+  /// for a move along an axis that the machine does not control.
   void check(const Job& window);
   /// Prints notes on its forces as warnings.
   void warn(const Job& window);
@@ -87,22 +87,23 @@ struct RunEnd {
   std::string json;  ///< of the report
 };
 
-/// Completes the report and publishes the run's files. Throws `InputError` (Exit::transient_io).
+/// Completes the report and publishes the run's files. Throws `InputError` (ErrorKind::transient_io).
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
 
-/// Prints the failure, if any. Returns its exit status.
-Exit exit_of(const Run& run, const std::optional<Failure>& failure, Console& console);
+/// Prints the failure, if any. Returns its kind.
+std::optional<ErrorKind> print_failure(const Run& run, const std::optional<Failure>& failure,
+                                       Console& console);
 
-/// The same for the verdict of a report.
-Exit exit_of(const Run& run, const RunReport& report, Console& console);
+/// The same for the failure of a report, or for its verdict.
+std::optional<ErrorKind> print_failure(const Run& run, const RunReport& report, Console& console);
 
 /// Prints the result: the summary or the JSON document on standard output, or the summary on standard error
-/// if standard output has the corrected program. Then prints the failure, if any. Returns the exit status.
-Exit tell_result(const Options& options, const Run& run, const RunEnd& end, const RunFiles& files,
-                 Console& console);
+/// if standard output has the corrected program. Then prints the failure, if any. Returns its kind.
+std::optional<ErrorKind> tell_result(const Options& options, const Run& run, const RunEnd& end,
+                                     const RunFiles& files, Console& console);
 
 /// Finishes the run and prints its result.
-Exit deliver(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files,
-             Console& console);
+std::optional<ErrorKind> deliver(const Options& options, Run& run, RunReport report, const RunTally& tally,
+                                 RunFiles& files, Console& console);
 
 }  // namespace counterflex::cli

@@ -105,7 +105,7 @@ SanityChecks program_sanity(const PlacedProgram& placed) {
 void refuse_wrong(const SanityChecks& checks, const Machine& machine) {
   for (const SanityCheck& check : checks)
     if (check.state == SanityState::wrong)
-      throw InputError(Exit::machine_or_force, machine.tool_at, check.text);
+      throw InputError(ErrorKind::machine_or_force, machine.tool_at, check.text);
 }
 
 SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally& tally) {

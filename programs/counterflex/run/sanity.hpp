@@ -19,7 +19,7 @@ SanityChecks machine_sanity(const Machine& machine, const Model& model);
 /// Checks of a machine and a program before the run.
 SanityChecks program_sanity(const PlacedProgram& placed);
 
-/// Throws `InputError` (Exit::machine_or_force) at [tool] if the tool points into the work.
+/// Throws `InputError` (ErrorKind::machine_or_force) at [tool] if the tool points into the work.
 void refuse_wrong(const SanityChecks& checks, const Machine& machine);
 
 /// All checks of a run: those before it, and those of the path in `tally`.

@@ -28,7 +28,7 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
                      const std::string& offset) {
   const auto fail = [&](Status status) {
     throw InputError(
-        Exit::machine_or_force, {file},
+        ErrorKind::machine_or_force, {file},
         fmt::format(
             "[work.{}] was touched off at ({:.6g}, {:.6g}, {:.6g}) mm of the machine frame, which the "
             "machine does not reach: {}",
@@ -88,7 +88,7 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
   const auto found = machine.work.find(name);
   if (found == machine.work.end())
     throw InputError(
-        Exit::machine_or_force, {machine_file},
+        ErrorKind::machine_or_force, {machine_file},
         fmt::format(
             "no [work.{0}], which the program {1}; the offsets are {2}. Add [work.{0}], or give --work "
             "{0}=X,Y,Z/DATUM",
@@ -140,7 +140,7 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
     const std::string name = selected.empty() ? power_on_offset : selected;
     const auto found = table.find(name);
     if (found == table.end())
-      throw InputError(Exit::usage, {},
+      throw InputError(ErrorKind::usage, {},
                        fmt::format("--work does not give {}, which the program {}; it gives {}", name,
                                    selected.empty() ? "starts with" : "selects", names(table)));
     place.frames[i] = place_frame({name, found->second}, program.frames[i]);

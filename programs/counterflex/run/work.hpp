@@ -18,13 +18,13 @@ struct WorkPlace {
 };
 
 /// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off
-/// is at the tip of the unloaded machine. Throws `InputError` (Exit::machine_or_force) if the table lacks an
-/// offset, or if the machine does not reach the touched point.
+/// is at the tip of the unloaded machine. Throws `InputError` (ErrorKind::machine_or_force) if the table
+/// lacks an offset, or if the machine does not reach the touched point.
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program);
 
 /// The same without a machine, from the texts of --work. Without texts all offsets are the machine frame.
-/// Throws `InputError` (Exit::usage) for wrong texts, or if an offset in use is missing.
+/// Throws `InputError` (ErrorKind::usage) for wrong texts, or if an offset in use is missing.
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
 
 /// The machine of a run with its tools, and where solutions start.

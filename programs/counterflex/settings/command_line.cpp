@@ -41,11 +41,11 @@ void refuse_no_value(std::string_view word) {
   const bool names_an_option = word.starts_with("--") || (word.size() == 3 && word[0] == '-');
   if (!names_an_option || word.find('=') != word.size() - 1) return;
   word.remove_suffix(1);
-  throw InputError(Exit::usage, {}, fmt::format("{} has no value", word));
+  throw InputError(ErrorKind::usage, {}, fmt::format("{} has no value", word));
 }
 
 /// Joins a value that begins with a minus with the option before it: "--at -10,0,0" becomes "--at=-10,0,0".
-/// Throws `InputError` (Exit::usage) for "--at=".
+/// Throws `InputError` (ErrorKind::usage) for "--at=".
 std::vector<std::string> joined(int argc, const char* const* argv) {
   std::vector<std::string> words;
   bool options_end = false;
@@ -90,21 +90,21 @@ void translate_help(std::vector<std::string>& words) {
   words.emplace_back("--help");
 }
 
-/// "counterflex O1001.NC" is "counterflex compensate O1001.NC". Throws `InputError` (Exit::usage) for a first
-/// word that is neither a command nor a file.
+/// "counterflex O1001.NC" is "counterflex compensate O1001.NC". Throws `InputError` (ErrorKind::usage) for a
+/// first word that is neither a command nor a file.
 void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
   if (words.empty() || (words[0].starts_with('-') && words[0] != "-")) return;
   const auto is_meant = [&](const CLI::App* command) { return command->get_name() == words[0]; };
   if (!app.get_subcommands(is_meant).empty()) return;
   std::error_code ignored;
   if (words[0] != "-" && !std::filesystem::exists(words[0], ignored))
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("'{}' is neither a command nor a file{}", words[0],
                                  advice(words[0], names_of_commands(app), "")));
   words.insert(words.begin(), "compensate");
 }
 
-/// Throws `InputError` (Exit::usage) for --shard with a command without this option.
+/// Throws `InputError` (ErrorKind::usage) for --shard with a command without this option.
 void refuse_shard_of_program(const std::vector<std::string>& words) {
   const auto is_shard = [](const std::string& word) {
     return word == "--shard" || word.starts_with("--shard=");
@@ -112,12 +112,12 @@ void refuse_shard_of_program(const std::vector<std::string>& words) {
   const auto end = std::ranges::find(words, "--");
   if (words.empty() || words[0] == "batch" || std::none_of(words.begin(), end, is_shard)) return;
   throw InputError(
-      Exit::usage, {},
+      ErrorKind::usage, {},
       "--shard divides the jobs of a batch: one program is always done by one process. Leave out --shard, "
       "or list several programs in a jobs file and use counterflex batch JOBS.toml --shard I/N");
 }
 
-/// Throws `InputError` (Exit::usage) for the first option that the command does not have.
+/// Throws `InputError` (ErrorKind::usage) for the first option that the command does not have.
 void refuse_unknown_option(const std::vector<std::string>& words, const CLI::App& app) {
   if (words.empty() || words[0].starts_with('-')) return;
   const CLI::App* command = app.get_subcommand(words[0]);
@@ -128,19 +128,21 @@ void refuse_unknown_option(const std::vector<std::string>& words, const CLI::App
   for (auto word = words.begin() + 1; word != end; ++word) {
     const std::string name = word->substr(0, word->find('='));
     if (!name.starts_with("--") || std::ranges::find(names, name) != names.end()) continue;
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("counterflex {} has no option {}{}", words[0], without_controls(name),
                                  advice(name, {names.begin(), names.end()}, " " + words[0])));
   }
 }
 
-Exit leave(const CLI::App& app, const CLI::ParseError& error) {
-  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success))
-    return static_cast<Exit>(app.exit(error));
+std::optional<ErrorKind> leave(const CLI::App& app, const CLI::ParseError& error) {
+  if (error.get_exit_code() == static_cast<int>(CLI::ExitCodes::Success)) {
+    app.exit(error);  // prints the help
+    return std::nullopt;
+  }
   const auto chosen = app.get_subcommands();
   fmt::print(stderr, "error: {}\nSee counterflex help {}.\n", without_controls(error.what()),
              chosen.empty() ? "COMMAND" : chosen.front()->get_name());
-  return Exit::usage;
+  return ErrorKind::usage;
 }
 
 /// The program that decides where the project file is searched: its folder and those above. The first one of
@@ -175,7 +177,7 @@ std::vector<SettingRemark> remarks_on_environment() {
 
 }  // namespace
 
-std::variant<Options, Exit> read_command_line(int argc, const char* const* argv) {
+std::variant<Options, std::optional<ErrorKind>> read_command_line(int argc, const char* const* argv) {
   Options options;
   CLI::App app("", "counterflex");
   describe_program(app);
@@ -184,11 +186,11 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
     auto words = joined(argc, argv);
     if (words.empty()) {
       fmt::print(stderr, "{}", short_usage());
-      return Exit::usage;
+      return ErrorKind::usage;
     }
     if (words[0] == "completion") {
       write_result(completion_script(app, words.size() > 1 ? words[1] : ""));
-      return Exit::done;
+      return std::nullopt;
     }
     translate_help(words);
     add_missing_command(words, app);
@@ -200,7 +202,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
     return leave(app, error);
   }
   if (options.sources.config && options.sources.no_config)
-    throw InputError(Exit::usage, {}, "--config and --no-config exclude each other");
+    throw InputError(ErrorKind::usage, {}, "--config and --no-config exclude each other");
   options.remarks = remarks_on_environment();
   options.sources.environment = read_environment(environ);
   if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
@@ -210,7 +212,7 @@ std::variant<Options, Exit> read_command_line(int argc, const char* const* argv)
   Options result = with_settings(std::move(options), found.layers);
   if (print) {
     write_result(config_text(result.command, found.layers));
-    return Exit::done;
+    return std::nullopt;
   }
   refuse_no_machine(result);
   return result;

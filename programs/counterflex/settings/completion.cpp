@@ -192,7 +192,7 @@ std::string completion_script(const CLI::App& app, const std::string& shell) {
   if (shell == "bash") return bash_script(app);
   if (shell == "zsh") return zsh_script(app);
   if (shell == "fish") return fish_script(app);
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("'{}' is not a shell with completion: bash, zsh or fish", shell));
 }
 

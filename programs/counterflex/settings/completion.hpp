@@ -8,7 +8,7 @@ class App;
 
 namespace counterflex::cli {
 
-/// The script of `shell`: bash, zsh or fish. Throws `InputError` (Exit::usage) for another one.
+/// The script of `shell`: bash, zsh or fish. Throws `InputError` (ErrorKind::usage) for another one.
 std::string completion_script(const CLI::App& app, const std::string& shell);
 
 }  // namespace counterflex::cli

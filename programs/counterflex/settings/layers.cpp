@@ -64,7 +64,7 @@ void refuse_no_machine(const Options& options) {
       options.command == Command::compare)
     return;
   throw InputError(
-      Exit::usage, {},
+      ErrorKind::usage, {},
       "no machine is given; --machine MACHINE names it, or the environment's "
       "COUNTERFLEX_MACHINE, or machine = \"MACHINE\" in a project file, counterflex.toml, beside "
       "or above the program");
@@ -94,7 +94,7 @@ ProgramLayers layers_of(const SettingSources& sources, const std::string& progra
   if (!file && !sources.no_config) file = find_project_file(program);
   ProgramLayers result{{sources.flags, sources.environment}, file.value_or("")};
   if (file) refuse_special_file(*file);
-  if (file) result.layers.push_back(read_project(read_input(*file, Exit::machine_or_force), *file));
+  if (file) result.layers.push_back(read_project(read_input(*file, ErrorKind::machine_or_force), *file));
   return result;
 }
 

@@ -28,7 +28,7 @@ ProgramLayers layers_of(const SettingSources& sources, const std::string& progra
 /// their built-in values. Throws `InputError` at the place of a value that is not allowed.
 Options with_settings(Options options, const Layers& layers);
 
-/// Throws `InputError` (Exit::usage) if the command needs a machine that is not given.
+/// Throws `InputError` (ErrorKind::usage) if the command needs a machine that is not given.
 void refuse_no_machine(const Options& options);
 
 /// The settings of a run as a project file that gives the same options, each with its origin. Includes

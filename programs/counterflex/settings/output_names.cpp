@@ -103,7 +103,7 @@ void check_pattern(const std::string& name, const std::string& text) {
   if (unknown.empty()) return;
   const std::string meant = nearest_placeholder(unknown);
   const bool is_hint = !meant.empty() && meant != unknown;
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("{} is '{}': unknown word {{{}}}; use {{name}}, {{ext}}{}{}", name, text,
                                unknown, of_report ? ", {output}" : "",
                                is_hint ? fmt::format("; did you mean {{{}}}?", meant) : ""));

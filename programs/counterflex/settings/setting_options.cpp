@@ -15,7 +15,7 @@ namespace counterflex::cli {
 namespace {
 
 void take_dialect(const std::string&, const std::string& text, Options& options) {
-  if (const auto problem = unknown_dialect(text)) throw InputError(Exit::usage, {}, *problem);
+  if (const auto problem = unknown_dialect(text)) throw InputError(ErrorKind::usage, {}, *problem);
   options.dialect = text;
 }
 
@@ -41,7 +41,7 @@ void take_work(const std::string& name, const std::string& text, Options& option
   const bool machine = work_of(text, name).offset.empty();
   for (const std::string& other : options.work)
     if (machine != work_of(other).offset.empty())
-      throw InputError(Exit::usage, {},
+      throw InputError(ErrorKind::usage, {},
                        fmt::format("{} is '{}' and '{}': machine, which makes program coordinates machine "
                                    "coordinates, goes with no offset",
                                    name, other, text));
@@ -56,7 +56,7 @@ void take_tool_length(const std::string& name, const std::string& text, Options&
 void take_plot(const std::string& name, const std::string& text, Options& options) {
   check_pattern(name, text);
   if (!text.ends_with(".svg") && !text.ends_with('/'))
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{} writes a file that ends in .svg, not '{}'", name, text));
   options.plot = text;
 }
@@ -98,7 +98,7 @@ const std::array option_table{
           const double blend_mm = number_of(name, text, {0});
           if (blend_mm > 0 && blend_mm < least_mm)
             throw InputError(
-                Exit::usage, {},
+                ErrorKind::usage, {},
                 fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name, text, least_mm));
           options.blend = blend_mm * mm;
         }},
@@ -234,7 +234,7 @@ std::string name_in_messages(const Setting& setting) {
 }
 
 void blame_setting(const Setting& setting, std::size_t i, const std::string& message) {
-  throw InputError(setting.origin == Origin::file ? Exit::machine_or_force : Exit::usage,
+  throw InputError(setting.origin == Origin::file ? ErrorKind::machine_or_force : ErrorKind::usage,
                    place_of(setting, i), message);
 }
 

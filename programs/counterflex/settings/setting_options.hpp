@@ -18,7 +18,7 @@ struct SettingOption {
   std::string_view help;
   std::string_view builtin;  ///< the default value, if a file can state it
   bool repeated;             ///< may be given several times, for several values
-  /// Parses one value; `name` is the name of the option in messages. Throws `InputError` (Exit::usage).
+  /// Parses one value; `name` is the name of the option in messages. Throws `InputError` (ErrorKind::usage).
   void (*take)(const std::string& name, const std::string& value, Options& options);
 };
 
@@ -30,8 +30,8 @@ const SettingOption& setting_option(std::string_view option);
 /// Whether `command` uses that option; it ignores others.
 bool has_setting(Command command, std::string_view option);
 
-/// Sets the values of a setting in `options`. Throws `InputError` at the place of a wrong value: Exit::usage
-/// for flags and the environment, Exit::machine_or_force for files.
+/// Sets the values of a setting in `options`. Throws `InputError` at the place of a wrong value:
+/// ErrorKind::usage for flags and the environment, ErrorKind::machine_or_force for files.
 void apply_setting(const Setting& setting, Options& options);
 
 /// Throws `message` as `apply_setting` does for value `i`.

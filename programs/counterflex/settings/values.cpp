@@ -29,7 +29,7 @@ std::vector<std::string_view> split(std::string_view text) {
 std::string offset_name(std::string_view text, std::string_view option) {
   const auto name = work_offset_name(text);
   if (!name)
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' is not a work offset; use {}", option, text, work_offset_names));
   return *name;
 }
@@ -39,11 +39,11 @@ Datum datum_of(std::string_view name, std::string_view text) {
   constexpr std::string_view touched = "touched=";
   if (text == "machine") return {.is_machine = true};
   if (!text.starts_with(touched))
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: the datum is '{}', must be machine or touched=X,Y,Z", name, text));
   const PoseText at = pose_of(fmt::format("{} touched", name), text.substr(touched.size()));
   if (at.has_orientation)
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' has 6 numbers, must be three lengths in mm", name, text));
   return {.touched_at = at.X.p};
 }
@@ -53,14 +53,14 @@ Datum datum_of(std::string_view name, std::string_view text) {
 double number_of(std::string_view name, std::string_view text, Range range) {
   const auto value = read_number(text);
   if (value && (range.open ? *value > range.least : *value >= range.least)) return *value;
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("{} is '{}', must be a finite number {} {}", name, text,
                                range.open ? "above" : "of at least", range.least));
 }
 
 double number_of(std::string_view name, std::string_view text) {
   if (const auto value = read_number(text)) return *value;
-  throw InputError(Exit::usage, {}, fmt::format("{} is '{}', must be a finite number", name, text));
+  throw InputError(ErrorKind::usage, {}, fmt::format("{} is '{}', must be a finite number", name, text));
 }
 
 int integer_of(std::string_view name, std::string_view text, int least, int most) {
@@ -68,7 +68,7 @@ int integer_of(std::string_view name, std::string_view text, int least, int most
   const auto [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
   if (error == std::errc{} && end == text.data() + text.size() && value >= least && value <= most)
     return value;
-  throw InputError(Exit::usage, {},
+  throw InputError(ErrorKind::usage, {},
                    fmt::format("{} is '{}', must be a whole number from {} to {}", name, text, least, most));
 }
 
@@ -76,7 +76,7 @@ PoseText pose_of(std::string_view name, std::string_view text) {
   const auto parts = split(text);
   if (parts.size() != 3 && parts.size() != 6)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("{}: '{}' has {} numbers, must be three lengths in mm, or these and three angles in "
                     "degrees",
                     name, text, parts.size()));
@@ -84,7 +84,7 @@ PoseText pose_of(std::string_view name, std::string_view text) {
   for (std::size_t i = 0; i < parts.size(); ++i) {
     const auto value = read_number(parts[i]);
     if (!value)
-      throw InputError(Exit::usage, {},
+      throw InputError(ErrorKind::usage, {},
                        fmt::format("{}: '{}' in '{}' must be a finite number", name, parts[i], text));
     values[static_cast<Eigen::Index>(i)] = *value;
   }
@@ -96,7 +96,7 @@ CurveText curve_of(std::string_view name, std::string_view text) {
                     second = text.find(':', first + 1);
   if (equals == std::string_view::npos || first == std::string_view::npos || second == std::string_view::npos)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("{}: '{}' must be a direction, two displacements in mm and a number of steps, "
                     "as z=0:-12:24 or 1,0,1=0:5:10",
                     name, text));
@@ -107,7 +107,8 @@ CurveText curve_of(std::string_view name, std::string_view text) {
   else
     curve.direction = pose_of(name, axis).X.p;
   if (curve.direction.norm() == 0)
-    throw InputError(Exit::usage, {}, fmt::format("{}: the direction of '{}' must not be zero", name, text));
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("{}: the direction of '{}' must not be zero", name, text));
   curve.direction.normalize();
   curve.from = number_of(name, text.substr(equals + 1, first - equals - 1)) * mm;
   curve.to = number_of(name, text.substr(first + 1, second - first - 1)) * mm;
@@ -119,7 +120,7 @@ WorkText work_of(std::string_view text, std::string_view name) {
   if (text == "machine") return {};
   const std::size_t equals = text.find('=');
   if (equals == std::string_view::npos)
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' must be an offset and its pose, as G54=X,Y,Z[,RX,RY,RZ], or "
                                  "'machine'",
                                  name, text));
@@ -136,7 +137,7 @@ std::pair<long, double> tool_length_of(std::string_view name, std::string_view t
   const std::size_t equals = std::min(text.find('='), text.size());
   const auto tool = read_tool_number(text.substr(0, equals));
   if (!tool || equals == text.size())
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' must be a tool and its length in mm, as T1=50", name, text));
   return {*tool, number_of(fmt::format("{} T{}", name, *tool), text.substr(equals + 1))};
 }
@@ -145,7 +146,7 @@ std::size_t choice_of(std::string_view name, std::string_view text,
                       const std::vector<std::string_view>& allowed) {
   const auto found = std::find(allowed.begin(), allowed.end(), text);
   if (found == allowed.end())
-    throw InputError(Exit::usage, {},
+    throw InputError(ErrorKind::usage, {},
                      fmt::format("{} is '{}', must be {}", name, text, fmt::join(allowed, " or ")));
   return static_cast<std::size_t>(found - allowed.begin());
 }

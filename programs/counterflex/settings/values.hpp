@@ -1,6 +1,6 @@
 #pragma once
-/// Parses values of command line arguments. All throw `InputError` (Exit::usage) with the argument and the
-/// allowed values.
+/// Parses values of command line arguments. All throw `InputError` (ErrorKind::usage) with the argument and
+/// the allowed values.
 #include <string>
 #include <string_view>
 #include <utility>

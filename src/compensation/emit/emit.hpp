@@ -40,7 +40,7 @@ struct EmitterState {
 /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
 /// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
 /// groups one rigid motion; a held move keeps the correction at its start. Where one cannot be
-/// held the emission fails (Exit::program_text).
+/// held the emission fails (ErrorKind::program_text).
 Emission emit(const Job& job, const Plan& plan, EmitterState& state);
 
 }  // namespace counterflex

@@ -155,7 +155,7 @@ void Emitter::list_held_words(const Move& move, const Vector3& miss) {
 }
 
 void Emitter::refuse(const Move& move, std::string what) {
-  if (!out_.failure) out_.failure = Failure{Exit::program_text, move.line, std::move(what)};
+  if (!out_.failure) out_.failure = Failure{ErrorKind::program_text, move.line, std::move(what)};
 }
 
 // The coordinates may move under the tool from one move to the next.

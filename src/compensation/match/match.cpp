@@ -88,7 +88,7 @@ class WindowMatcher {
       const double shift = found.end_mm[k] - original.end_mm[k], before = shifts_mm_[axis].value_or(0);
       if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job_.options.tolerance / mm)
         return Failure{
-            Exit::not_compensated, original.line,
+            ErrorKind::not_compensated, original.line,
             fmt::format("{} is the same as in the original, but the moves before it are shifted by {:.4f} mm",
                         "XYZ"[axis], before),
             found.line};
@@ -110,7 +110,7 @@ class WindowMatcher {
                        (original.end_mm - original.start_mm).head<2>().norm();
     if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
     return Failure{
-        Exit::not_compensated, original.line,
+        ErrorKind::not_compensated, original.line,
         fmt::format(
             "this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
             "shifted and turned as a whole",
@@ -129,7 +129,7 @@ class WindowMatcher {
       if (taken_mm == 0 || !all_known(found.known_start) || (way.z() == 0 && whole)) return std::nullopt;
       const std::string size = std::isfinite(taken_mm) ? fmt::format("{:.4f} mm", taken_mm) : "a part";
       return Failure{
-          Exit::not_compensated, original.line,
+          ErrorKind::not_compensated, original.line,
           fmt::format(
               "the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
               "mm; corners lie in one plane",
@@ -148,13 +148,13 @@ class WindowMatcher {
     const double shift = found.end_mm.z() - original.end_mm.z();
     if (takes_surface(original) != takes_surface(found))
       return Failure{
-          Exit::not_compensated, original.line,
+          ErrorKind::not_compensated, original.line,
           "this hole takes the height of its surface from a cycle's definition in one of both programs only",
           found.line};
     const bool held = original.handling == Handling::held;
     if (takes_surface(original) && held && std::abs(shift - height_shift_mm_) > rounding_mm)
       return Failure{
-          Exit::not_compensated, original.line,
+          ErrorKind::not_compensated, original.line,
           fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm",
                       shift, height_shift_mm_),
           found.line};
@@ -167,7 +167,7 @@ class WindowMatcher {
     constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
     const Move &original = matched.original, &found = *matched.found.back().move;
     const auto fail = [&](std::string what) {
-      return Failure{Exit::not_compensated, original.line, std::move(what), found.line};
+      return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.line};
     };
     if (!original.called != !found.called)
       return fail("a drilling cycle is called here in one of both programs only");
@@ -205,7 +205,7 @@ class WindowMatcher {
                       off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
     if (same) return std::nullopt;
     return Failure{
-        Exit::not_compensated, matched.original.line,
+        ErrorKind::not_compensated, matched.original.line,
         fmt::format(
             "the coordinates of this block are not those of the original: another offset, or {:.4f} mm "
             "off",
@@ -216,10 +216,11 @@ class WindowMatcher {
   Failure not_found(const Move& original, std::size_t others) {
     const CorrectedMove* next = found_.at(0);
     if (next == nullptr || next->others != others)
-      return {Exit::not_compensated, original.line, "no move follows here that belongs to the original's",
+      return {ErrorKind::not_compensated, original.line,
+              "no move follows here that belongs to the original's",
               next != nullptr ? next->move->line : last_line_};
     return {
-        Exit::not_compensated, original.line,
+        ErrorKind::not_compensated, original.line,
         "the moves from here on do not end where that of the original does, with the same words (motion, F, "
         "S, M)",
         next->move->line};
@@ -283,7 +284,7 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
 std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   for (; !wanted.lines.empty() && !found.lines.empty(); wanted.lines.pop_front(), found.lines.pop_front())
     if (wanted.lines.front().text != found.lines.front().text)
-      return Failure{Exit::not_compensated, wanted.lines.front().line,
+      return Failure{ErrorKind::not_compensated, wanted.lines.front().line,
                      "this line differs from that of the original; it is not a move and must not change",
                      found.lines.front().line};
   return std::nullopt;
@@ -318,14 +319,14 @@ Matching match_window(const Job& job, const PlannedWays& ways, OtherLines& lines
 
 std::optional<Failure> match_end(OtherLines& lines, CorrectedMoves& found) {
   if (const CorrectedMove* left = found.at(0))
-    return Failure{Exit::not_compensated, 0, "this move has no counterpart in the original",
+    return Failure{ErrorKind::not_compensated, 0, "this move has no counterpart in the original",
                    left->move->line};
   OtherLines& others = found.other_lines();
   if (auto failure = lines_failure(lines, others)) return failure;
   if (!others.lines.empty())
-    return Failure{Exit::not_compensated, 0, "the original has no such line", others.lines.front().line};
+    return Failure{ErrorKind::not_compensated, 0, "the original has no such line", others.lines.front().line};
   if (!lines.lines.empty())
-    return Failure{Exit::not_compensated, lines.lines.front().line,
+    return Failure{ErrorKind::not_compensated, lines.lines.front().line,
                    "this line of the original is missing at the end of the corrected program"};
   return std::nullopt;
 }

@@ -52,7 +52,7 @@ class KindComparison {
 
  private:
   void fail(const Move& found, std::string what) {
-    failure_ = Failure{Exit::not_compensated, original_.line, std::move(what), found.line};
+    failure_ = Failure{ErrorKind::not_compensated, original_.line, std::move(what), found.line};
   }
 
   void compare(std::size_t i) {

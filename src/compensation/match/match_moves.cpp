@@ -131,7 +131,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   const Move& original = matched.original;
   const std::string wanted = skeleton(job.program, original);
   const auto fail = [&](const CorrectedMove& found, std::string what) {
-    return Failure{Exit::not_compensated, original.line, std::move(what), found.move->line};
+    return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.move->line};
   };
   std::size_t own_blocks = 0;
   // A restart at the number of a block runs the whole move. In Klartext all blocks are numbered in order.

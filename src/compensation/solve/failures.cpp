@@ -47,7 +47,7 @@ Failure few_decimals_failure(const Move& move, const CompensationOptions& option
   int enough = 0;
   while (rounding_of(move.unit, enough) > options.tolerance / 2) ++enough;
   return {
-      Exit::usage, move.line,
+      ErrorKind::usage, move.line,
       fmt::format("words are rounded by up to {:.3g} mm here, which leaves too little of the tolerance of "
                   "{:.3g} mm; it needs --decimals {}",
                   rounding_allowance(move, options.write) / mm, options.tolerance / mm, enough)};
@@ -70,10 +70,10 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 Failure status_failure(const Job& job, Status status, const CommandedPlace& at, int line) {
   if (status == Status::outside_travel) {
     if (const auto word = ambiguous_integer_word(job.program, line))
-      return {Exit::program_text, word->line, word->what};
-    return {Exit::limit, line, outside_travel_words(job.model.mechanism, at), 0, status};
+      return {ErrorKind::program_text, word->line, word->what};
+    return {ErrorKind::limit, line, outside_travel_words(job.model.mechanism, at), 0, status};
   }
-  return {Exit::not_compensated, line,
+  return {ErrorKind::not_compensated, line,
           fmt::format("the machine's equilibrium is not solved here: {}", to_string(status)), 0, status};
 }
 
@@ -87,8 +87,8 @@ std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, 
   const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
   if (const auto word = ambiguous_integer_word(job.program, line))
-    return Failure{Exit::program_text, word->line, word->what};
-  return Failure{Exit::limit, line,
+    return Failure{ErrorKind::program_text, word->line, word->what};
+  return Failure{ErrorKind::limit, line,
                  fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
                              job.options.max_correction / mm)};
 }
@@ -105,7 +105,7 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     const double miss = position_miss(job, w);
     if (miss <= job.options.tolerance || w.exempt) continue;
     return Failure{
-        Exit::not_compensated, w.line,
+        ErrorKind::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {} mm at {:.1f} % of this move, the "
                     "tolerance is {:.4f} mm",
                     format_beside(miss / mm, job.options.tolerance / mm, 4), 100 * w.fraction,

@@ -16,7 +16,7 @@ Location place_of_row(const ForceProfile& profile, std::size_t row) {
 void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message) {
   // A profile made from a log has fewer rows than the file of the log.
   const bool counted = !profile.within || profile.key == ForceKey::point;
-  throw InputError(Exit::machine_or_force, place_of_row(profile, row),
+  throw InputError(ErrorKind::machine_or_force, place_of_row(profile, row),
                    counted ? fmt::format("row {}: {}", row + 1, message) : message);
 }
 

@@ -14,15 +14,15 @@ struct KeySpan {
 };
 
 /// The key of every segment, in SI; meaningless for rapids. `block_number` is N of the previous moves, then
-/// of these. Throws `InputError` (Exit::machine_or_force) if the program lacks the block number or the feed
-/// that the key needs.
+/// of these. Throws `InputError` (ErrorKind::machine_or_force) if the program lacks the block number or the
+/// feed that the key needs.
 std::vector<KeySpan> align(const ForceProfile& profile, const Program& program, const Toolpath& path,
                            std::optional<long>& block_number);
 
 /// The place in its file of a row of a profile, counted from 0.
 Location place_of_row(const ForceProfile& profile, std::size_t row);
 
-/// Throws (Exit::machine_or_force) at a row of a profile, counted from 0. The message names the row.
+/// Throws (ErrorKind::machine_or_force) at a row of a profile, counted from 0. The message names the row.
 [[noreturn]] void fail_row(const ForceProfile& profile, std::size_t row, const std::string& message);
 
 }  // namespace counterflex

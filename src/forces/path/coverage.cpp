@@ -209,7 +209,7 @@ void Coverage::settle(int line) {
 void Coverage::refuse(const Claim& a, const Claim& b, int line) const {
   if (a.rule != nullptr && b.rule != nullptr) refuse_both(*a.rule, a.row, *b.rule, b.row, line);
   const Claim& given = a.rule != nullptr ? a : b;
-  throw InputError(Exit::machine_or_force, where_of(*given.rule, given.row),
+  throw InputError(ErrorKind::machine_or_force, where_of(*given.rule, given.row),
                    fmt::format("covers line {} of the program, which a FORCE comment covers too; both are "
                                "given for places: one of them must not cover it",
                                line));

@@ -112,7 +112,7 @@ struct ForceCover::State {
     if (uncovered == 0) return;
     const std::string moves = uncovered > 1 ? fmt::format(" and {} more have", uncovered - 1) : " has";
     throw InputError(
-        Exit::machine_or_force, {file, first_uncovered, 1},
+        ErrorKind::machine_or_force, {file, first_uncovered, 1},
         fmt::format("this feed move{} no force: add a row or section for it, with zeros where nothing is "
                     "cut, or give --force=0,0,0 for all moves without another force",
                     moves));

@@ -39,8 +39,8 @@ class PositionLog {
   /// The first row that is not near the path, if any.
   std::optional<FarPoint> far_point() const;
 
-  /// Converts the log to a profile by path length. Throws `InputError` (Exit::machine_or_force) at a row that
-  /// does not fit the order of the path.
+  /// Converts the log to a profile by path length. Throws `InputError` (ErrorKind::machine_or_force) at a row
+  /// that does not fit the order of the path.
   void settle();
 
  private:

@@ -29,7 +29,7 @@ class ProfileEnds {
 
   void add(const KeySpan& keys, const Segment& cut);
 
-  /// Throws `InputError` (Exit::machine_or_force) at a row whose key is beyond the end of the program.
+  /// Throws `InputError` (ErrorKind::machine_or_force) at a row whose key is beyond the end of the program.
   void refuse_rows_beyond(const ProgramEnds& program) const;
 
   /// Throws if the profile is the only rule and leaves a cutting move without a force: if its first row is

@@ -51,7 +51,7 @@ std::string_view take_line(std::string_view& text) {
 }
 
 void fail(const Location& where, const std::string& message) {
-  throw InputError(Exit::machine_or_force, where, message);
+  throw InputError(ErrorKind::machine_or_force, where, message);
 }
 
 }  // namespace counterflex::csv

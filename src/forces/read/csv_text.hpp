@@ -24,7 +24,7 @@ std::vector<Field> split(std::string_view line, int first_column = 1);
 /// Removes the next line from `text` and returns it without its LF or CRLF.
 std::string_view take_line(std::string_view& text);
 
-/// Throws `InputError` (Exit::machine_or_force).
+/// Throws `InputError` (ErrorKind::machine_or_force).
 [[noreturn]] void fail(const Location& where, const std::string& message);
 
 }  // namespace counterflex::csv

@@ -11,7 +11,7 @@ Vector6 parse_force(std::string_view text) {
   const auto fields = csv::split(text);
   if (fields.size() != 3 && fields.size() != 6) {
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("force '{}' has {} numbers, must be FX,FY,FZ or FX,FY,FZ,MX,MY,MZ in N and N m", text,
                     fields.size()));
   }
@@ -19,7 +19,7 @@ Vector6 parse_force(std::string_view text) {
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const auto value = read_number(fields[i].text);
     if (!value) {
-      throw InputError(Exit::usage, {},
+      throw InputError(ErrorKind::usage, {},
                        fmt::format("force '{}': '{}' must be a finite number in {}", text, fields[i].text,
                                    i < 3 ? "N" : "N m"));
     }
@@ -36,7 +36,7 @@ ForceRule parse_force_rule(std::string_view text) {
   selector.tool = read_tool(csv::trimmed(text.substr(0, equals)));
   if (!selector.tool)
     throw InputError(
-        Exit::usage, {},
+        ErrorKind::usage, {},
         fmt::format("force '{}': '{}' must be a tool, as in T3=FX,FY,FZ", text, text.substr(0, equals)));
   return {name, {}, selector, ConstantForce{parse_force(text.substr(equals + 1))}};
 }

@@ -53,7 +53,7 @@ std::string_view shown(ForceRank rank) {
 
 void fail_rule(const ForceRule& rule, const Location& where, const std::string& message) {
   const bool option = where.file.empty();
-  throw InputError(option ? Exit::usage : Exit::machine_or_force, where,
+  throw InputError(option ? ErrorKind::usage : ErrorKind::machine_or_force, where,
                    option || is_section(rule) ? fmt::format("{}: {}", rule.name, message) : message);
 }
 

@@ -26,7 +26,7 @@ std::string place_of(const ForceRule& rule, const Location& where);
 /// "places", "operations", "tools" or "the whole program".
 std::string_view shown(ForceRank rank);
 
-/// Throws at a rule, or a row of it: Exit::usage for the command line, else Exit::machine_or_force.
+/// Throws at a rule, or a row of it: ErrorKind::usage for the command line, else ErrorKind::machine_or_force.
 [[noreturn]] void fail_rule(const ForceRule& rule, const Location& where, const std::string& message);
 [[noreturn]] void fail_rule(const ForceRule& rule, const std::string& message);
 

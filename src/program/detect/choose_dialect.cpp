@@ -44,20 +44,20 @@ std::optional<std::string> unknown_dialect(const std::string& dialect) {
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
   if (const std::string_view language = robot_language(text); !language.empty())
     throw InputError(
-        Exit::program_text, {file, 1, 1},
+        ErrorKind::program_text, {file, 1, 1},
         fmt::format("this is a program in {}, which is not supported; post the job as G-code, Siemens or "
                     "Heidenhain program",
                     language));
   if (const std::string machine = other_machine(text); !machine.empty())
     throw InputError(
-        Exit::program_text, {file, 1, 1},
+        ErrorKind::program_text, {file, 1, 1},
         fmt::format(
             "this is {}, which is not supported; use a milling program for Fanuc, Haas, LinuxCNC, GRBL, "
             "Mach3, Siemens or Heidenhain",
             machine));
   if (options.dialect == "auto") return detect_dialect_of_file(beginning(text), file);
   if (const auto problem = unknown_dialect(options.dialect))
-    throw UnknownDialect(Exit::usage, {file}, *problem);
+    throw UnknownDialect(ErrorKind::usage, {file}, *problem);
   return *find_dialect(options.dialect);
 }
 

@@ -152,7 +152,7 @@ class KlartextExpander {
     const std::size_t most = largest_expansion(text_.size());
     if (lines_.text.size() > most || expansion_.calls > most_expanded_calls)
       throw InputError(
-          Exit::program_text, {file_, call.line, 1},
+          ErrorKind::program_text, {file_, call.line, 1},
           fmt::format(
               "CALL LBL {}: the expanded calls are longer than {} bytes, or more than {} calls; reduce "
               "the repeats, or leave out --expand-subprograms",

@@ -43,7 +43,7 @@ std::optional<ForceComment> read_force_comment(std::string_view text, const std:
   const Token first = next_token(text, at, comment.end);
   if (!same_letters(first.text, "FORCE")) return std::nullopt;
   const auto fail = [&](std::size_t where, const std::string& message) {
-    refuse(file, block, where, message, Exit::machine_or_force);
+    refuse(file, block, where, message, ErrorKind::machine_or_force);
   };
 
   Vector6 force = Vector6::Zero();

@@ -12,7 +12,7 @@ struct ForceComment {
 };
 
 /// The force of `comment` of `block`; empty if its first word is not FORCE. Throws `InputError`
-/// (Exit::machine_or_force) if it is malformed.
+/// (ErrorKind::machine_or_force) if it is malformed.
 std::optional<ForceComment> read_force_comment(std::string_view text, const std::string& file,
                                                const Block& block, Span comment);
 

@@ -334,10 +334,10 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
 }
 
 void refuse(const std::string& file, const Block& block, std::size_t at, const std::string& message,
-            Exit exit) {
+            ErrorKind kind) {
   const std::string from =
       block.called_from > 0 ? fmt::format(" (called from line {})", block.called_from) : std::string();
-  throw InputError(exit, {file, block.line, static_cast<int>(at - block.span.begin) + 1}, message + from);
+  throw InputError(kind, {file, block.line, static_cast<int>(at - block.span.begin) + 1}, message + from);
 }
 
 }  // namespace counterflex

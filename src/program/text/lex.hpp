@@ -115,6 +115,6 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
 
 /// Throws an `InputError` at byte `at` of `block`.
 [[noreturn]] void refuse(const std::string& file, const Block& block, std::size_t at,
-                         const std::string& message, Exit exit = Exit::program_text);
+                         const std::string& message, ErrorKind kind = ErrorKind::program_text);
 
 }  // namespace counterflex

@@ -72,16 +72,16 @@ Location place_of(std::string_view text, std::size_t offset, const std::string& 
 
 Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file) {
   if (const std::size_t at = too_deep(text); at < text.size())
-    throw InputError(Exit::usage, place_of(whole, offset + at, file),
+    throw InputError(ErrorKind::usage, place_of(whole, offset + at, file),
                      fmt::format("lists and objects are nested more than {} deep", deepest));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;  // it counts from 1
-    throw InputError(Exit::usage, place_of(whole, offset + byte, file),
+    throw InputError(ErrorKind::usage, place_of(whole, offset + byte, file),
                      "is not JSON: " + parser_message(error.what()));
   } catch (const Json::exception& error) {  // a number beyond the range of double
-    throw InputError(Exit::usage, place_of(whole, offset + place_of_number(text, error.what()), file),
+    throw InputError(ErrorKind::usage, place_of(whole, offset + place_of_number(text, error.what()), file),
                      "cannot be read: " + without_tag(error.what()));
   }
 }
@@ -103,7 +103,7 @@ void JsonSource::refuse(const std::string& pointer, const Json& value, const cha
   constexpr std::size_t most = 60;
   std::string seen = value.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (seen.size() > most) seen = seen.substr(0, most) + "...";
-  throw InputError(Exit::usage, {file},
+  throw InputError(ErrorKind::usage, {file},
                    fmt::format("{} is {}; {} or null is allowed", pointer, seen, wanted));
 }
 

@@ -9,7 +9,7 @@
 namespace counterflex {
 
 /// A document and the name of its file. The members take the text of a JSON pointer. Missing values and null
-/// give an empty result. They throw `InputError` (Exit::usage) with the pointer and the value if it has
+/// give an empty result. They throw `InputError` (ErrorKind::usage) with the pointer and the value if it has
 /// another type.
 struct JsonSource {
   const Json& document;
@@ -26,7 +26,7 @@ struct JsonSource {
 };
 
 /// Parses `text`, which begins at byte `offset` of `whole`, the content of `file`. Throws `InputError`
-/// (Exit::usage) with line and column in `file` if it is not JSON, has a number that is too large, or is
+/// (ErrorKind::usage) with line and column in `file` if it is not JSON, has a number that is too large, or is
 /// nested too deep.
 Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file);
 

@@ -34,7 +34,7 @@ void require_schema(const Json& document, std::string_view schema, std::string_v
   if (document.is_object() && found != document.end() && *found == schema) return;
   const bool any = document.is_object() && found != document.end();
   const std::size_t key = any ? whole.find("\"schema\"", offset) : offset;
-  throw InputError(Exit::usage, place_of(whole, key, file),
+  throw InputError(ErrorKind::usage, place_of(whole, key, file),
                    fmt::format("the document's schema is {}; only \"{}\" can be compared",
                                any ? found->dump() : "missing", report_schema));
 }
@@ -43,7 +43,8 @@ void require_schema(const Json& document, std::string_view schema, std::string_v
 Json run_of_page(std::string_view html, const std::string& file) {
   const std::size_t tag = html.find(data_begins);
   if (tag == std::string_view::npos)
-    throw InputError(Exit::usage, {file, 1, 1}, "is not a page of counterflex: it has no counterflex-data");
+    throw InputError(ErrorKind::usage, {file, 1, 1},
+                     "is not a page of counterflex: it has no counterflex-data");
   const std::size_t begin = tag + data_begins.size();
   const std::string_view data = html.substr(begin, html.find(data_ends, begin) - begin);
   const Json page = parse_json(data, html, begin, file);
@@ -51,7 +52,7 @@ Json run_of_page(std::string_view html, const std::string& file) {
   const Json* runs = JsonSource{page, file}.list("/runs");
   const std::size_t count = runs == nullptr ? 0 : runs->size();
   if (count != 1)
-    throw InputError(Exit::usage, {file},
+    throw InputError(ErrorKind::usage, {file},
                      fmt::format("the page shows {} runs; give the page of a single run", count));
   return runs->front();
 }

@@ -337,7 +337,7 @@ Json tools_json(const std::vector<UsedTool>& tools) {
 Json failure_json(const RunReport& report) {
   const std::optional<Failure>& failure = report.failure;
   if (!failure) return nullptr;
-  Json json{{"exit", static_cast<int>(failure->exit)}, {"line", failure->line}, {"what", failure->what}};
+  Json json{{"exit", report.exit_status}, {"line", failure->line}, {"what", failure->what}};
   if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
   if (const auto& at = report.failure_place)
     json["at"] = sources_at_json(*at, !at->gravity_mm.isZero(0), !at->preloads_mm.isZero(0));
@@ -350,7 +350,7 @@ std::string to_json(const SanityChecks& checks) {
   return dump(sanity_json(checks));
 }
 
-std::string failed_json(Command command, std::string_view version, const InputError& error) {
+std::string failed_json(Command command, std::string_view version, const InputError& error, int exit_status) {
   const Location& where = error.where();
   return dump({{"schema", report_schema},
                {"tool", fmt::format("counterflex {}", version)},
@@ -358,7 +358,7 @@ std::string failed_json(Command command, std::string_view version, const InputEr
                {"verdict", to_string(Verdict::failed)},
                {"verdict_reason", ""},
                {"failure",
-                {{"exit", static_cast<int>(error.exit())},
+                {{"exit", exit_status},
                  {"file", utf8_of_bytes(where.file)},
                  {"line", where.line},
                  {"what", utf8_of_bytes(error.what())}}}});

@@ -4,7 +4,8 @@
   const {el} = counterflex.dom;
   const {known} = counterflex.units;
   const {vectors, words} = counterflex;
-  const exits = {usage: 2, program: 3, machine: 4, notCompensated: 5, limit: 6};
+  // Exit statuses in reports: programs/guide/safety.md.
+  const exits = {program: 3, notCompensated: 5, limit: 6};
 
   /** The causes at the place of a failure, [{key, name, vector}]. */
   function causesOf(at) {

@@ -45,7 +45,7 @@ std::string failure_text(const RunReport& report, const Ink& ink) {
   if (report.command == Command::verify && failure.corrected_line > 0)
     where += fmt::format("line {} of the corrected program: ", failure.corrected_line);
   std::string text = line_break() + ink.bad(report.failure ? "Failed" : "Refused") +
-                     fmt::format(" (exit status {})\n", static_cast<int>(failure.exit));
+                     fmt::format(" (exit status {})\n", report.exit_status);
   text += wrapped("  ", where + failure.what, 4);
   if (report.failure && report.command == Command::compensate)
     text += "  No corrected program was written.\n";

@@ -119,7 +119,7 @@ std::string sanity_line(const RunReport& report, const Ink& ink) {
 }
 
 std::string files_line(const RunReport& report, const std::vector<std::string>& files) {
-  const bool no_program = report.command == Command::compensate && report.exit != Exit::done;
+  const bool no_program = report.command == Command::compensate && report.error_kind;
   std::string text = no_program ? "no corrected program" : "";
   for (std::size_t i = 0; i < std::min(files.size(), shown_files + 1); ++i)
     text += (text.empty() ? "" : ", ") + without_controls(files[i]);

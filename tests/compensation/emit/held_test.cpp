@@ -18,7 +18,7 @@ TEST_CASE("an axis that an expression sets refuses a correction, and passes with
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);
   const auto failure = failure_on(displaced_gantry(), text);
   REQUIRE(failure);
-  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->kind == ErrorKind::program_text);
   CHECK(failure->line == 5);
   CHECK(failure->what.find("-0.5000 mm") != std::string::npos);
 }
@@ -33,7 +33,7 @@ TEST_CASE("what puts positions elsewhere refuses a correction that holds, and pa
     const auto failure = failure_on(displaced_gantry(), text);
     REQUIRE(failure);
     CHECK(failure->line == 5);
-    CHECK(failure->exit == Exit::program_text);
+    CHECK(failure->kind == ErrorKind::program_text);
     // Behind a machine position nothing holds that could be lost.
     CHECK_FALSE(failure_on(displaced_gantry(), begin + "G53 X0 Y0 Z0\n" + elsewhere + end));
   }
@@ -67,7 +67,7 @@ TEST_CASE("a call of a subprogram refuses a correction that holds") {
   CHECK(!failure_on(perfect_gantry(), text));
   const auto failure = failure_on(displaced_gantry(), text);
   REQUIRE(failure);
-  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->kind == ErrorKind::program_text);
   CHECK(failure->line == 6);
 }
 

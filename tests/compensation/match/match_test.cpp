@@ -78,7 +78,7 @@ TEST_CASE("one coordinate that is changed by some hundredths is found, with its 
                    std::to_string(value).substr(0, std::to_string(value).find('.') + 4));
       const auto failure = judged(shop, result.text.substr(0, word->number.begin) + text).failure;
       REQUIRE(failure);
-      CHECK(failure->exit == Exit::not_compensated);
+      CHECK(failure->kind == ErrorKind::not_compensated);
       CHECK(failure->line >= 2);
       CHECK(failure->line <= 9);
     }

@@ -13,12 +13,12 @@ namespace {
 
 const std::string spindle_stop = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\nM30\n";
 
-/// The exit, line and words with which `changed` is refused as the corrected form of `spindle_stop`.
+/// The line and words with which `changed` is refused as the corrected form of `spindle_stop`.
 std::string refusal(const std::string& changed) {
   const Shop shop({.machine = load_machine(orthoglide_perfect), .text = spindle_stop});
   const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
   if (!failure) return "";
-  CHECK(failure->exit == Exit::not_compensated);
+  CHECK(failure->kind == ErrorKind::not_compensated);
   return fmt::format("{}, original {}: {}", failure->corrected_line, failure->line, failure->what);
 }
 

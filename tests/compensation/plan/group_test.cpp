@@ -179,7 +179,7 @@ TEST_CASE("a contour group whose step the move before its plunge cannot make is 
       "Y80.\nX100.\nG40 X-10. Y-12.\nG0 Z10.\nX120. Y50.\nM30\n";
   const auto failure = Shop({.machine = rigid_gantry("0, 0, 0", 1e-3), .text = step}).run().failure;
   REQUIRE(failure);
-  CHECK(failure->exit == Exit::program_text);
+  CHECK(failure->kind == ErrorKind::program_text);
   CHECK(failure->line == 3);
   CHECK(failure->what.find("the block takes no X word") != std::string::npos);
   CHECK_FALSE(Shop({.machine = displaced_gantry(), .text = step}).run().failure);

@@ -26,7 +26,7 @@ TEST_CASE("a correction above the limit is refused at its line") {
   const int line = compensated(Shop(order)).largest_correction_line;
   order.max_correction -= 2e-9;
   const Failure failure = refused(order);
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == line);
   CHECK(failure.what.find("limit") != std::string::npos);
 }
@@ -35,7 +35,7 @@ TEST_CASE("the limit holds for the first position too") {
   Order order{.machine = load_machine(orthoglide_b), .text = "G21 G90\nG0 X0. Y-60. Z0.\nM30\n"};
   order.max_correction = 1e-4;
   const Failure failure = refused(order);
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == 2);
 }
 
@@ -50,17 +50,17 @@ TEST_CASE("an actuator that leaves its travel is a limit, whether the machine ge
   Order order{.machine = load_machine(mill),
               .text = "G21 G90\nG0 X10. Y10. Z-240.\nG0 X399.5\nG1 X400.3 F100\nM30\n"};
   Failure failure = refused(order);
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == 4);
   order.text = "G21 G90\nG0 X10. Y10. Z-100.\nM30\n";  // the spindle nose would be above its travel
   failure = refused(order);
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == 2);
   // Legs of the hexapod end at 500 mm: 1200 mm long.
   order.machine = load_machine(hexapod);
   order.text = "G21 G90\nG0 X0. Y0. Z850.\nG1 Z1100. F100\nG1 Z1500.\nM30\n";
   failure = refused(order);
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == 4);
 }
 
@@ -68,14 +68,14 @@ TEST_CASE("the linear method respects travel as well") {
   const Failure failure = refused({.machine = load_machine(mill),
                                    .text = "G21 G90\nG0 X10. Y10. Z-240.\nG0 X450.\nM30\n",
                                    .method = Method::linear});
-  CHECK(failure.exit == Exit::limit);
+  CHECK(failure.kind == ErrorKind::limit);
   CHECK(failure.line == 3);
 }
 
 TEST_CASE("a place that the machine does not reach is not compensated") {
   const Failure failure = refused({.machine = load_machine(orthoglide_b),
                                    .text = "G21 G90\nG0 X0. Y0. Z0.\nG0 X10.\nG1 X900. F600\nM30\n"});
-  CHECK(failure.exit == Exit::not_compensated);
+  CHECK(failure.kind == ErrorKind::not_compensated);
   CHECK(failure.line == 4);
 }
 
@@ -86,7 +86,7 @@ TEST_CASE("a machine that buckles under the load is not compensated") {
   CHECK(!Shop(order).run().failure);
   order.force = constant_force((Vector6() << -5100, 0, 0, 0, 0, 0).finished(), 0);
   const Failure failure = refused(order);
-  CHECK(failure.exit == Exit::not_compensated);
+  CHECK(failure.kind == ErrorKind::not_compensated);
   CHECK(failure.line == 3);
   CHECK(failure.what.find("unstable") != std::string::npos);
 }
@@ -94,12 +94,12 @@ TEST_CASE("a machine that buckles under the load is not compensated") {
 TEST_CASE("too few decimals for the tolerance are a matter of usage") {
   Order order{.machine = load_machine(orthoglide_b), .text = cuts, .force = constant_force(milling())};
   order.decimals = 2;
-  CHECK(refused(order).exit == Exit::usage);
+  CHECK(refused(order).kind == ErrorKind::usage);
   order.decimals = -1;
   order.tolerance = 0.9e-6;  // rounding takes 0.866 um of it, and the tip moves a little more than its target
   const Compensation result = Shop(order).run();
   if (result.failure)
-    CHECK(result.failure->exit == Exit::usage);
+    CHECK(result.failure->kind == ErrorKind::usage);
   else
     CHECK(dense_miss(Shop(order), result, 10).size <= 0.9e-6);
 }

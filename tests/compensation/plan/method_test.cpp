@@ -27,7 +27,7 @@ TEST_CASE("the linear method is refused where its residual exceeds the tolerance
   Order order = line_by(Method::linear, orthoglide_b);
   const Compensation refused = Shop(order).run();
   REQUIRE(refused.failure);
-  CHECK(refused.failure->exit == Exit::not_compensated);
+  CHECK(refused.failure->kind == ErrorKind::not_compensated);
   CHECK(refused.failure->line == 3);
   CHECK(refused.failure->what.find("verification failed") != std::string::npos);
   order.tolerance = 10e-6;

@@ -94,7 +94,7 @@ TEST_CASE("verify finds a wrong circle along which the correction is constant") 
     CHECK(largest_miss_after(run.waypoints) == doctest::Approx(25e-3 * std::sin(0.05 * deg)).epsilon(1e-3));
     const auto failure = tolerance_failure(shop.job(), run.waypoints);
     REQUIRE(failure);
-    CHECK(failure->exit == Exit::not_compensated);
+    CHECK(failure->kind == ErrorKind::not_compensated);
     CHECK(failure->line == 4);
   }
 }

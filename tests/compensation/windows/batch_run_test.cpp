@@ -33,7 +33,7 @@ Compensation check_same_run(const Order& order, bool attribution = false) {
   REQUIRE(alone.failure.has_value() == together.failure.has_value());
   if (alone.failure) {
     CHECK(alone.failure->line == together.failure->line);
-    CHECK(alone.failure->exit == together.failure->exit);
+    CHECK(alone.failure->kind == together.failure->kind);
     CHECK(alone.failure->what == together.failure->what);
   } else {
     CHECK(std::abs(alone.largest_correction - together.largest_correction) <= 1e-9);

@@ -104,7 +104,8 @@ TEST_CASE("the function that receives a window that was read may refuse it, when
     order.threads = threads;
     WindowRun run;
     const auto refuse = [](const Job& job) {
-      if (job.program.moves.back().line > 150) throw InputError(Exit::program_text, {"part.ngc", 7}, "no");
+      if (job.program.moves.back().line > 150)
+        throw InputError(ErrorKind::program_text, {"part.ngc", 7}, "no");
     };
     CHECK_THROWS_AS(run_in_windows(order, 8, {}, run, refuse), InputError);
     CHECK(run.windows == run.begun - 1);

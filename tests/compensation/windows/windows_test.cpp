@@ -143,7 +143,7 @@ TEST_CASE("a window that cannot be compensated gives the line, and those before 
   REQUIRE(run.failure);
   CAPTURE(run.failure->what);
   CHECK(run.failure->line == 24);
-  CHECK(run.failure->exit == Exit::limit);
+  CHECK(run.failure->kind == ErrorKind::limit);
   CHECK(run.windows >= 5);
   CHECK_FALSE(run.text.empty());
 }

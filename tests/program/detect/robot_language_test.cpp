@@ -14,7 +14,7 @@ std::string refusal_of_robot(const std::string& text, const std::string& dialect
   try {
     read_program(text, "job", options);
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::program_text);
+    CHECK(error.kind() == ErrorKind::program_text);
     return error.what();
   }
   return "";

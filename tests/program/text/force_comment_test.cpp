@@ -35,7 +35,7 @@ TEST_CASE("a malformed FORCE comment has the exit status of forces") {
     read("G21\nG0 X1 (FORCE FX=215N)\n");
     FAIL("was read");
   } catch (const InputError& error) {
-    CHECK(error.exit() == Exit::machine_or_force);
+    CHECK(error.kind() == ErrorKind::machine_or_force);
     CHECK(std::string(error.what()) == "p.ngc:2:17: error: '215N' is not a number for FX");
   }
 }
