@@ -1,7 +1,7 @@
 #include "program/program_writer.hpp"
 
 #include "program/dialect.hpp"
-#include "program/klartext/writer.hpp"
+#include "program/klartext/write/writer.hpp"
 #include "program/write/gcode_writer.hpp"
 
 namespace counterflex {

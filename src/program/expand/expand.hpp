@@ -19,8 +19,7 @@ namespace counterflex {
 /// GOTO of shop controls. If a condition of the program is not known from the text, or if more than 150 000
 /// lines would run again, all of them stay, with the reason. Calls of a Sinumerik are not replaced.
 /// Throws `InputError` (ErrorKind::program_text) for text that is not G-code, for a subprogram that always
-/// calls itself, and if calls expand to more than `largest_expansion` bytes. calls make more than
-/// `largest_expansion` bytes.
+/// calls itself, and if calls expand to more than `largest_expansion` bytes.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
 /// Whether calls of the dialect can be replaced.

@@ -33,6 +33,15 @@ void append_lines(std::string_view text, std::size_t at, int line, std::size_t e
     lines.append(text.substr(block.span.begin, block.line_end.end - block.span.begin), block.line, 0);
 }
 
+int count_lines(std::string_view text) {
+  const auto ends = std::count(text.begin(), text.end(), '\n');
+  return static_cast<int>(ends) + (!text.empty() && text.back() != '\n' ? 1 : 0);
+}
+
+std::string_view whole_line(std::string_view text, const Block& block) {
+  return text.substr(block.span.begin, block.line_end.end - block.span.begin);
+}
+
 std::string line_end_of(std::string_view text) {
   const std::size_t newline = text.find('\n');
   const bool returns = newline != std::string_view::npos && newline > 0 && text[newline - 1] == '\r';

@@ -29,6 +29,12 @@ void truncate_to(const LinesMark& mark, ExpandedLines& lines);
 /// The lines of `text` from `at` to the line that begins at `end`, unchanged.
 void append_lines(std::string_view text, std::size_t at, int line, std::size_t end, ExpandedLines& lines);
 
+/// The lines of a file, of which the last one may have no line end.
+int count_lines(std::string_view text);
+
+/// The block with its line end.
+std::string_view whole_line(std::string_view text, const Block& block);
+
 /// "\r\n" if the first line ends with it, else "\n".
 std::string line_end_of(std::string_view text);
 

@@ -12,13 +12,13 @@
 #include "program/expand/lines.hpp"
 #include "program/expand/main_flow.hpp"
 #include "program/expand/structures.hpp"
+#include "program/expand/subprograms.hpp"
 #include "program/outline.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr std::size_t arguments_of_call = 30;  // missing arguments are zero
 constexpr std::size_t deepest_calls = 100;
 constexpr std::size_t most_lines = 150'000;  // limit of lines that run again
 constexpr std::size_t most_bytes_of_sinumerik = 16'000'000;
@@ -35,10 +35,6 @@ struct Frame {
   bool left = false;  ///< by RETURN
 };
 
-std::string_view whole_line(std::string_view text, const Block& block) {
-  return text.substr(block.span.begin, block.line_end.end - block.span.begin);
-}
-
 /// Executes a program, or copies it if its flow is unknown, and replaces calls by the bodies.
 class Expander {
  public:
@@ -47,14 +43,11 @@ class Expander {
         file_(file),
         dialect_(dialect),
         why_none_(why_none),
-        definitions_(may_expand(dialect) ? find_definitions(text, file, dialect) : Definitions{}),
-        program_{text, file, dialect,
-                 std::count_if(definitions_.begin(), definitions_.end(),
-                               [](const auto& named) { return named.first.kind == NameKind::program; })},
+        subprograms_(text, file, dialect),
+        program_{text, file, dialect, subprograms_.numbered()},
         lines_{{}, line_end_of(text)} {
     reads_results_ = text.find("<_value") != std::string_view::npos;
-    expansion_.file_lines = static_cast<int>(std::count(text.begin(), text.end(), '\n'));
-    if (!text.empty() && text.back() != '\n') ++expansion_.file_lines;
+    expansion_.file_lines = count_lines(text);
   }
 
   /// Throws `UnknownFlow` if a loop, a condition or a jump of the program cannot be executed.
@@ -249,20 +242,24 @@ class Expander {
     if (!why_none_.empty()) return std::string(why_none_);
     if (!call.why_not.empty()) return call.why_not;
     if (!structures_.open.empty()) return "it is in a condition or a loop";
-    long repeats = call.repeats;
-    const auto [definition, why] = find(call, repeats);
+    const auto [definition, why, repeats, seeks_numbers] = subprograms_.find(call);
+    seeks_numbers_ = seeks_numbers_ || seeks_numbers;
     if (definition == nullptr) return why;
     if (std::string deep = refuse_depth(*definition, call, block); !deep.empty()) return deep;
-    std::vector<double> arguments;
-    if (std::string unknown = read_arguments(call, caller, arguments); !unknown.empty()) return unknown;
     const bool by_word = call.name.kind == NameKind::word;
+    std::vector<double> arguments;
+    if (by_word) {
+      if (reads_results_) return "the program reads values returned by calls";
+      const std::string unknown = evaluate_arguments(call, dialect_, caller.variables, arguments);
+      if (!unknown.empty()) return unknown;
+    }
     Variables own = by_word ? variables_of_body(caller.variables, arguments) : Variables{};
     Frame body{
         definition->flow, by_word ? own : caller.variables, has_flow(definition->flow), definition, by_word,
         block.line};
 
     const LinesMark mark = mark_of(lines_);
-    const Expansion before_call = counts();
+    const Counts before_call = counts();
     // The other words of the block are executed first.
     if (const std::string rest = line_without(text_, dialect_, block, call.dropped); !rest.empty())
       lines_.append(rest, block.line, origin(block, caller));
@@ -274,19 +271,18 @@ class Expander {
     return failed;
   }
 
-  /// The counts, without the lines.
-  Expansion counts() const {
-    Expansion counted;
-    counted.calls = expansion_.calls;
-    counted.executed = expansion_.executed;
-    counted.unexpanded_calls.resize(expansion_.unexpanded_calls.size());
-    return counted;
+  struct Counts {
+    std::size_t calls, executed, unexpanded_calls;
+  };
+
+  Counts counts() const {
+    return {expansion_.calls, expansion_.executed, expansion_.unexpanded_calls.size()};
   }
 
-  void restore(const Expansion& counted) {
+  void restore(const Counts& counted) {
     expansion_.calls = counted.calls;
     expansion_.executed = counted.executed;
-    expansion_.unexpanded_calls.resize(counted.unexpanded_calls.size());
+    expansion_.unexpanded_calls.resize(counted.unexpanded_calls);
   }
 
   std::string copy_bodies(Frame& body, long repeats, const SubprogramCall& call, const Block& block) {
@@ -332,33 +328,6 @@ class Expander {
                                    [](const Word& word) { return word.letter >= 'X' && word.letter <= 'Z'; });
   }
 
-  struct Found {
-    const Definition* definition;
-    std::string why;
-  };
-
-  Found find(const SubprogramCall& call, long& repeats) {
-    auto places = definitions_.find(call.name);
-    if (places == definitions_.end() && !call.other_reading.name.empty()) {
-      repeats = call.other_repeats;
-      places = definitions_.find(call.other_reading);
-    }
-    if (places == definitions_.end())
-      return {nullptr, "the subprogram is not in this file: append it behind the end of the program"};
-    if (places->second.size() > 1) return {nullptr, "this file defines the subprogram more than once"};
-    auto known = read_.find(places->first);
-    if (known == read_.end())
-      known = read_
-                  .emplace(places->first,
-                           read_definition(text_, file_, dialect_, places->first, places->second[0]))
-                  .first;
-    const Definition& d = known->second;
-    seeks_numbers_ = seeks_numbers_ || d.seeks_numbers;
-    if (!d.why_not.empty()) return {nullptr, d.why_not};
-    if (!d.ends) return {nullptr, "its body does not end with M99 or endsub"};
-    return {&d, {}};
-  }
-
   /// A condition may end the recursion of a subprogram.
   std::string refuse_depth(const Definition& d, const SubprogramCall& call, const Block& block) const {
     const bool may_end = has_flow(d.flow);
@@ -368,23 +337,6 @@ class Expander {
     std::string why = fmt::format("calls are nested more than {} deep", deepest_calls);
     if (!may_end) refuse(file_, block, call.span.begin, why);
     return why;
-  }
-
-  /// Evaluates arguments with the variables of the caller.
-  std::string read_arguments(const SubprogramCall& call, const Frame& caller,
-                             std::vector<double>& arguments) const {
-    if (call.name.kind != NameKind::word) return {};
-    if (reads_results_) return "the program reads values returned by calls";
-    if (call.arguments.size() > arguments_of_call)
-      return fmt::format("it has {} arguments, at most {} are allowed", call.arguments.size(),
-                         arguments_of_call);
-    for (const std::string& argument : call.arguments) {
-      const auto value = value_of_expression(argument, dialect_, caller.variables).value;
-      if (!value) return fmt::format("its argument [{}] is not a plain number", argument);
-      arguments.push_back(*value);
-    }
-    arguments.resize(arguments_of_call, 0);
-    return {};
   }
 
   void count_call(const SubprogramCall& call, const Block& block) {
@@ -404,7 +356,7 @@ class Expander {
   const std::string& file_;
   const Dialect& dialect_;
   std::string_view why_none_;
-  Definitions definitions_;
+  Subprograms subprograms_;
   ProgramText program_;
   ExpandedLines lines_;
   Expansion expansion_{};
@@ -415,7 +367,6 @@ class Expander {
   std::size_t run_lines_ = 0;
   int jumped_from_ = 0;
   bool calls_macro_ = false;
-  std::map<SubprogramName, Definition> read_{};
   std::vector<const Definition*> stack_{};  ///< bodies that are being copied
   std::vector<Span> kept_{};                ///< definitions in the program
   bool reads_results_ = false;              ///< #<_value> of LinuxCNC

@@ -12,7 +12,7 @@
 #include "program/expand/lines.hpp"
 #include "program/klartext/labels.hpp"
 #include "program/klartext/lex.hpp"
-#include "program/klartext/numbers.hpp"
+#include "program/klartext/write/numbers.hpp"
 
 namespace counterflex {
 namespace {

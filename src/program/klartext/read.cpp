@@ -120,7 +120,7 @@ struct KnownStatement {
   void (*read)(const KlartextBlock&, KlartextReading&);
 };
 
-constexpr std::array statements{
+constexpr std::array statement_readers{
     KnownStatement{"L", read_klartext_motion},
     KnownStatement{"C", read_klartext_motion},
     KnownStatement{"CR", read_klartext_motion},
@@ -195,10 +195,10 @@ void read_statement(const KlartextBlock& block, KlartextReading& r) {
   read_comments(block, r);
   if (block.parts.empty()) return;
   ++r.program.block_count;
-  const auto known = std::find_if(statements.begin(), statements.end(),
+  const auto known = std::find_if(statement_readers.begin(), statement_readers.end(),
                                   [&](const KnownStatement& s) { return s.head == block.head; });
   mark_definition_changed(block, r);
-  if (known != statements.end()) return known->read(block, r);
+  if (known != statement_readers.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
   add_unfollowed_move(block, r,
                       fmt::format("{} is not supported", block.head.empty() ? "the block" : block.head));

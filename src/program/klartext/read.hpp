@@ -101,6 +101,15 @@ bool may_skip_or_repeat(const KlartextReading& reading);
 /// L, C, CR, CT, LP and CP.
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& reading);
 
+/// C and CR with plain coordinates from a known start: C in the plane of its CC, CR in the plane XY. If the
+/// arc is unknown, so is the end of the move. Throws `InputError` if the pole is not equally far from both
+/// ends.
+void read_klartext_arc(const KlartextBlock& block, KlartextReading& reading, Move& move);
+
+/// CT between known ends: the arc tangent to the move before it. False if the arc is unknown, is a line, or
+/// has no length.
+bool read_klartext_tangent_arc(KlartextReading& reading, Move& move);
+
 /// The end of LP or CP about the pole, and the arc of CP. Returns why the block is not followed; empty if it
 /// is.
 std::string place_polar_end(const KlartextBlock& block, KlartextReading& reading, Move& move);

@@ -16,11 +16,6 @@ constexpr std::array<std::string_view, 15> o_keywords{"SUB",    "ENDSUB", "CALL"
                                                       "ELSEIF", "ELSE",   "ENDIF",     "WHILE",  "ENDWHILE",
                                                       "DO",     "REPEAT", "ENDREPEAT", "BREAK",  "CONTINUE"};
 
-template <typename Words>
-bool is_one_of(std::string_view text, const Words& words) {
-  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return is_word(text, word); });
-}
-
 /// Letters that begin at `at`.
 std::string_view letters_at(const Scanner& s, std::size_t at) {
   std::size_t stop = at;

@@ -1,5 +1,6 @@
 #pragma once
 /// Scanner of one line.
+#include <algorithm>
 #include <string>
 #include <string_view>
 
@@ -73,6 +74,12 @@ inline bool may_move(char letter) {
 
 /// Whether `text` is `upper_case`, ignoring case.
 bool is_word(std::string_view text, std::string_view upper_case);
+
+/// Whether `text` is one of `words`, which are in upper case.
+template <typename Words>
+bool is_one_of(std::string_view text, const Words& words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) { return is_word(text, word); });
+}
 
 /// Whether an expression begins at the scanner: a variable, an expression in brackets or a function, with or
 /// without a sign.

@@ -4,17 +4,9 @@
 #include <vector>
 
 #include "counterflex/statics/nominal.hpp"
-#include "flat_machine.hpp"
+#include "transform_product.hpp"
 
 namespace counterflex::kernel {
-
-/// A rigid transform as a product of fixed poses and of assembly errors, of which a share acts.
-struct TransformFactor {
-  Pose X;
-  Vector3 log_R = Vector3::Zero();  ///< of an error
-  bool error = false, inverted = false;
-};
-using TransformProduct = std::vector<TransformFactor>;
 
 /// A flat machine, and what of the model its parts are.
 struct Flat {

@@ -5,18 +5,10 @@
 
 #include "counterflex/program/rewrite.hpp"
 #include "program/klartext/lex.hpp"
-#include "program/klartext/numbers.hpp"
+#include "program/klartext/write/numbers.hpp"
+#include "program/klartext/write/style.hpp"
 
 namespace counterflex {
-
-/// Style of inserted text in a program.
-struct KlartextStyle {
-  bool comma = false;     ///< decimal comma
-  bool plus = false;      ///< "X+1"
-  bool numbered = false;  ///< blocks begin with numbers
-  bool n_words = false;   ///< "N5" instead of "5"
-  std::string line_end = "\n";
-};
 
 /// The last CC of the written text.
 struct WrittenPole {
@@ -31,11 +23,6 @@ struct KlartextTextState {
   std::optional<double> surface{};  ///< surface of the active cycle in the text; empty: as in the original
   WrittenNumbers numbers{};
 };
-
-KlartextStyle klartext_style(const Program& program);
-
-/// `value` in `style`.
-std::string klartext_number(const KlartextStyle& style, double value, int decimals);
 
 /// Characters that replace a span of the program.
 struct KlartextChange {

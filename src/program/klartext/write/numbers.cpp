@@ -1,4 +1,4 @@
-#include "program/klartext/numbers.hpp"
+#include "program/klartext/write/numbers.hpp"
 
 #include "program/klartext/lex.hpp"
 #include "program/text/lex.hpp"

@@ -1,11 +1,11 @@
-#include "program/klartext/writer.hpp"
+#include "program/klartext/write/writer.hpp"
 
 #include <algorithm>
 #include <cassert>
 
 #include "program/dialect.hpp"
-#include "program/klartext/block.hpp"
-#include "program/klartext/numbers.hpp"
+#include "program/klartext/write/block.hpp"
+#include "program/klartext/write/numbers.hpp"
 #include "program/text/lex.hpp"
 #include "program/write/text_position.hpp"
 

@@ -1,6 +1,6 @@
 #pragma once
 /// Writes corrected Klartext.
-#include "program/klartext/block.hpp"
+#include "program/klartext/write/block.hpp"
 #include "program/program_writer.hpp"
 
 namespace counterflex {

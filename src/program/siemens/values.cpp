@@ -1,0 +1,121 @@
+#include "program/siemens/values.hpp"
+
+#include <fmt/format.h>
+
+#include <string_view>
+
+#include "counterflex/files/text.hpp"
+#include "program/siemens/names.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_name_character(char c) {
+  return is_letter(c) || is_digit(c) || c == '_' || c == '$';
+}
+
+/// Skips an operator; false if there is no operator at the scanner.
+bool skip_operator(Scanner& s) {
+  const std::size_t begin = s.at;
+  while (s.at < s.end && std::string_view("+-*/<>=").find(s.peek()) != std::string_view::npos) ++s.at;
+  if (s.at > begin) return true;
+  const std::string_view name = siemens_name_at(s);
+  const bool found = is_siemens_operator(name);
+  if (found) s.at += name.size();
+  return found;
+}
+
+/// An assigned expression: values with operators between them.
+void skip_assigned(Scanner& s) {
+  for (bool more = true; more; more = skip_operator(s)) {
+    s.skip_blanks();
+    skip_siemens_value(s);
+    s.skip_blanks();
+  }
+}
+
+int decimals_in_plain(std::string_view number) {
+  const std::size_t point = number.find('.');
+  return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+}
+
+std::optional<double> plain_number(std::string_view text) {
+  return text.find_first_not_of("+-.0123456789") == std::string_view::npos ? read_number(text) : std::nullopt;
+}
+
+/// "12.5", "AC(12.5)", "IC(-3)" behind the '=' of a word. Any other value is an expression.
+void read_siemens_value(Scanner& s, Word& word) {
+  s.skip_blanks();
+  Span value{s.at, s.at};
+  skip_siemens_value(s);
+  word.span.end = value.end = s.at;
+  if (empty(value)) s.refuse_at(s.at - 1, fmt::format("{}= has no value", word.letter));
+  const std::string_view text = part(s.text, value);
+  const bool absolute = is_word(text.substr(0, 3), "AC("), relative = is_word(text.substr(0, 3), "IC(");
+  if ((absolute || relative) && text.back() == ')') {
+    value = {value.begin + 3, value.end - 1};
+    word.mode = absolute ? DistanceMode::absolute : DistanceMode::relative;
+    s.block.has_own_mode = true;
+  }
+  word.number = value;
+  const auto number = plain_number(part(s.text, value));
+  word.literal = number.has_value();
+  word.value = number.value_or(0);
+  word.point = part(s.text, value).find('.') != std::string_view::npos;
+  word.decimals = decimals_in_plain(part(s.text, value));
+}
+
+}  // namespace
+
+std::string_view siemens_name_at(const Scanner& s) {
+  std::size_t end = s.at;
+  while (end < s.end && is_name_character(s.text[end])) ++end;
+  return s.text.substr(s.at, end - s.at);
+}
+
+void skip_siemens_rest(Scanner& s) {
+  bool quoted = false;
+  for (; s.at < s.end && (quoted || s.peek() != ';'); ++s.at)
+    if (s.peek() == '"') quoted = !quoted;
+}
+
+void skip_siemens_value(Scanner& s) {
+  int depth = 0;
+  bool quoted = false;
+  for (; s.at < s.end; ++s.at) {
+    const char c = s.peek();
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
+    if (c == '(' || c == '[') ++depth;
+    if (c == ')' || c == ']') --depth;
+    if (depth <= 0 && (is_blank(c) || c == ';')) break;
+  }
+}
+
+void skip_siemens_index(Scanner& s) {
+  int depth = 0;
+  do {
+    if (s.peek() == '[') ++depth;
+    if (s.peek() == ']') --depth;
+    ++s.at;
+  } while (depth > 0 && s.at < s.end);
+}
+
+void take_assigned(Scanner& s, Span variable) {
+  const std::size_t value = ++s.at;
+  skip_assigned(s);
+  s.block.assignments.push_back({variable, {value, s.at}});
+}
+
+void read_named_word(Scanner& s, char letter, std::size_t name_length) {
+  Word& word = s.block.words.emplace_back();
+  word.letter = letter;
+  word.span.begin = s.at;
+  s.at += name_length;
+  s.skip_blanks();
+  ++s.at;
+  read_siemens_value(s, word);
+  if (letter == 'P') word.value += 1;
+}
+
+}  // namespace counterflex
