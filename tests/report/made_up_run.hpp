@@ -138,4 +138,20 @@ inline std::vector<Waypoint> made_up_waypoints() {
   return list;
 }
 
+/// A compensation with one waypoint, an inserted block and a block that is left alone.
+inline Compensation small_compensation() {
+  Compensation c;
+  c.text = "G21 G0 X1\n";
+  c.waypoints = {cut(1, 4, 100, Vector3(0, 0.3, -0.4))};
+  c.waypoints[0].s = 100 * mm;
+  c.waypoints[0].p_MT = Vector3(1, 2, 3) * mm;
+  c.left_alone = {{5, "exact stop: not split"}};
+  c.counts.inserted_blocks = 2;
+  c.corrected_moves = 3;
+  c.other_moves = {.grouped = 1, .held = 1};
+  c.largest_correction = 0.5 * mm;
+  c.largest_correction_line = 4;
+  return c;
+}
+
 }  // namespace counterflex::test

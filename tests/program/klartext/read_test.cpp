@@ -1,0 +1,132 @@
+#include <doctest/doctest.h>
+
+#include "program/klartext/klartext_text.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+TEST_CASE("klartext: after M140 the height of the tool is unknown") {
+  for (const char* retract : {"L M140 MB MAX\n", "M140 MB MAX\n", "L X+1 M140 MB50\n"}) {
+    CAPTURE(retract);
+    const Program program = read("BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F100\nL X+0 Y+0 Z+5 R0 FMAX\n" +
+                                     std::string(retract) + "L X+300 Y+200 FMAX\nL Z+5 FMAX\nEND PGM A MM\n",
+                                 "heidenhain");
+    const Move& across = program.moves.at(program.moves.size() - 2);
+    CHECK(across.known_start == std::array<bool, 3>{true, true, false});
+    CHECK(across.known_end == std::array<bool, 3>{true, true, false});
+    // No inserted word of Z moves back down.
+    const MoveEdit edit{.move = program.moves.size() - 2, .end_mm = {300.5, 200.25, 5.125}};
+    CHECK(rewrite(program, {edit}, {}).text.find("L X+300.5 Y+200.25 FMAX\n") != std::string::npos);
+  }
+}
+
+TEST_CASE("klartext: blocks may have N words, and brackets behind words are comments") {
+  const Program program =
+      read("BEGIN PGM A MM\nN1 L X+0 Y+0 Z+0 FMAX (start (1)\nN2 L X+20 F200\nN3 L Y+20\nN4 END PGM A MM\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].block_number == 2);
+  CHECK(rewrite(program, {{.move = 1, .inserted = {{{10, 0.1, 0}}}, .end_mm = {20, 0, 0}}}, {}).text ==
+        "BEGIN PGM A MM\nN1 L X+0 Y+0 Z+0 FMAX (start (1)\nN2 L X+10.000 Y+0.100 F200\nN3 L X+20 Y+0.000 "
+        "F200\nN4 L Y+20\nN5 END PGM A MM\n");
+}
+
+TEST_CASE("klartext: L moves with modal feed, rapid for one block, points and commas") {
+  const Program program = read(klartext({"TOOL CALL 3 Z S2500", "L X+10 Y-2,5 Z+50 R0 FMAX M3", "L Z-1. F250",
+                                         "L IX+5", "L X+20 F MAX", "L Y1"}));
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[0].motion == Motion::rapid);
+  CHECK(program.moves[0].end_mm == Vector3(10, -2.5, 50));
+  CHECK(program.moves[0].tool == 3);
+  CHECK(program.moves[0].spindle_rpm == 2500);
+  CHECK(program.moves[1].feed_mm_min == 250);
+  CHECK(program.moves[2].relative);
+  CHECK(program.moves[2].end_mm.x() == 15);
+  CHECK(program.moves[3].motion == Motion::rapid);
+  CHECK(program.moves[4].motion == Motion::feed);
+  CHECK(program.moves[4].feed_mm_min == 250);
+}
+
+TEST_CASE("klartext: feeds of an inch program are tenths of an inch per minute") {
+  const Program program = read(klartext({"L X+1 F100"}, "INCH"));
+  CHECK(program.moves.at(0).feed_mm_min == doctest::Approx(254));
+}
+
+TEST_CASE(
+    "klartext: coordinates without a number and numbers that no control reads are refused with their "
+    "position") {
+  CHECK(klartext_refusal({"L X+1 FMAX", "L Xnan Y1"}) ==
+        "p.ngc:3:5: error: X has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L Z nan FMAX"}) == "p.ngc:2:5: error: Z has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"L X1 M399999999990"}) ==
+        "p.ngc:2:8: error: M399999999990 is not a code: expected an integer from 0 to 99999");
+  CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
+  CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
+  CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
+  CHECK(klartext_refusal({"<<<<<<< mine"}).starts_with("p.ngc:2:3: error: '<<<<<<<' is a conflict marker"));
+  CHECK(diagnostic_of([&] {
+          read("L X1 FMAX\n", "heidenhain");
+        }).starts_with("p.ngc:1:1: error: a move before the unit"));
+}
+
+TEST_CASE("klartext: incremental words beside absolute ones are followed, and stay incremental") {
+  const std::vector<std::string> blocks{"L X+0 Y+0 Z+5 FMAX", "L Z-2 F200", "L X+20 IY+5", "L X+30 IZ+1"};
+  const Program program = read(klartext(blocks));
+  CHECK(program.moves[2].end_mm == Vector3(20, 5, -2));
+  CHECK(all_known(program.moves[2].known_end));
+  CHECK(program.moves[3].end_mm == Vector3(30, 5, -1));
+  CHECK(rewrite(program, edits_to_original(program), {}).text == program.text);
+  CHECK(klartext_shifted(program) ==
+        klartext({"L X+0.5 Y-0.25 Z+5.125 FMAX", "L Z-1.875 F200", "L X+20.5 IY+5", "L X+30.5 IZ+1"}));
+  // With a small rotation: differences of positions in the text, so that rounding errors do not add up.
+  const auto out = rewrite(program,
+                           {{.move = 0, .end_mm = {0, 0.0004, 5}},
+                            {.move = 2, .end_mm = {20, 5.0204, -2}},
+                            {.move = 3, .end_mm = {30, 5.0304, -1}}},
+                           {});
+  CHECK(out.text == klartext({"L X+0 Y+0 Z+5 FMAX", "L Z-2 F200", "L X+20 IY+5.02", "L X+30 IZ+1 Y+5.030"}));
+}
+
+TEST_CASE("klartext: Q parameters fix their axis, machine positions make their axes unknown") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "L X+Q21 Y+5 F100", "L Z + Q13 FMAX",
+                                         "L X+1 IZ-Q2", "L Z-10 FMAX M91", "L X+2"}));
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[1].fixed == std::array{true, false, false});
+  CHECK(program.moves[1].words[1]);
+  CHECK(program.moves[1].known_end == std::array{false, true, true});
+  CHECK(program.moves[2].fixed == std::array{false, false, true});
+  CHECK(program.moves[3].fixed == std::array{false, false, false});
+  CHECK(program.moves[4].known_start[2] == false);
+  CHECK(program.moves[4].line == 7);
+}
+
+TEST_CASE("klartext: a block that is not followed is a move fixed on all axes, with its reason") {
+  for (const std::string block :
+       {"CALL LBL 4", "CALL PGM B.H", "APPR LT X+Q1 Y+2 LEN10 RR F300", "LP PR+10 PA+20",
+        "PLANE SPATIAL SPA+10 SPB+0 SPC+0 STAY", "X+5 F100", "TCH PROBE 400", "FUNCTION TCPM F TCP"}) {
+    CAPTURE(block);
+    const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", block, "L X+3"}));
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].fixed == std::array{true, true, true});
+    CHECK(program.moves[2].known_start == std::array{false, false, false});
+    CHECK(program.left_alone.at(0).line == 3);
+  }
+}
+
+TEST_CASE("klartext: blocks that a label repeats, calls or skips are not corrected") {
+  const Program program =
+      read(klartext({"L X+0 Y+0 Z+0 FMAX", "LBL 1", "L X+5 F100", "L IX+5", "CALL LBL 1 REP 2",
+                     "L X+7 Y+7 Z+7", "FN 9: IF +Q1 EQU +Q2 GOTO LBL 3", "L X+9", "LBL 3", "L X+8"}));
+  REQUIRE(program.moves.size() == 7);
+  CHECK(program.moves[1].fixed[0]);
+  CHECK_FALSE(program.moves[2].fixed[0]);
+  CHECK_FALSE(all_known(program.moves[2].known_end));
+  CHECK_FALSE(program.moves[4].fixed[0]);
+  CHECK(program.moves[5].fixed[0]);
+  CHECK_FALSE(program.moves[6].fixed[0]);
+}
+
+TEST_CASE("klartext: forces are read from comments") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "; FORCE FX=-30 FZ=12", "L X+5 F100"}));
+  REQUIRE(program.moves[1].force);
+  CHECK((*program.moves[1].force)[0] == -30);
+}
