@@ -1,0 +1,181 @@
+#include "compensation/match/match_shifts.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/tuning.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+// Whether the move's height is a word of a block before it: Q203 of a cycle's definition, MCALL.
+bool takes_surface(const Move& move) {
+  if (move.called) return !move.called->modal.empty();
+  return move.words[2] && move.words[2]->number.begin < move.block.begin;
+}
+
+// MCALL with its cycle, without blanks and without the heights.
+std::string without_heights(const CalledCycle& cycle) {
+  std::string text;
+  for (std::size_t i = 0; i < cycle.modal.size(); ++i) {
+    const bool height = std::any_of(
+        cycle.heights.begin(), cycle.heights.end(),
+        [i](const PackedAxisWord& word) { return word && i >= word->number.begin && i < word->number.end; });
+    if (!height && cycle.modal[i] != ' ' && cycle.modal[i] != '\t') text += cycle.modal[i];
+  }
+  return text;
+}
+
+// The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift
+// with which they are entered. The others are judged where they are.
+std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShifts& carried) {
+  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+  const Move &original = matched.original, &found = *matched.found.back().move;
+  const double shift = found.end_mm.z() - original.end_mm.z();
+  if (takes_surface(original) != takes_surface(found))
+    return Failure{
+        ErrorKind::not_compensated, original.line,
+        "this hole takes the height of its surface from a cycle's definition in one of both programs only",
+        found.line};
+  const bool held = original.handling == Handling::held;
+  if (takes_surface(original) && held && std::abs(shift - carried.height_mm) > rounding_mm)
+    return Failure{
+        ErrorKind::not_compensated, original.line,
+        fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm", shift,
+                    carried.height_mm),
+        found.line};
+  if (!takes_surface(original) && original.known_end[2] && found.known_end[2]) carried.height_mm = shift;
+  return std::nullopt;
+}
+
+// All heights of a called cycle go along with its reference plane, the first of them.
+std::optional<Failure> call_failure(const MatchedMoves& matched) {
+  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+  const Move &original = matched.original, &found = *matched.found.back().move;
+  const auto fail = [&](std::string what) {
+    return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.line};
+  };
+  if (!original.called != !found.called)
+    return fail("a drilling cycle is called here in one of both programs only");
+  if (!original.called) return std::nullopt;
+  if (without_heights(*original.called) != without_heights(*found.called))
+    return fail("the cycle that MCALL calls here is not that of the original");
+  const double shift = found.end_mm.z() - original.end_mm.z();
+  for (std::size_t i = 0; i < original.called->heights.size(); ++i) {
+    if (!original.called->heights[i] != !found.called->heights[i])
+      return fail("a height of the cycle is given in one of both programs only");
+    const double other = found.called->heights_mm[i] - original.called->heights_mm[i];
+    if (original.called->heights[i] && std::abs(other - shift) > rounding_mm)
+      return fail(fmt::format(
+          "a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
+  }
+  return std::nullopt;
+}
+
+void forget_lost_axes(const Job& job, std::size_t m, CarriedShifts& carried) {
+  const Move &move = job.program.moves[m], *last = move_before(job.program, m);
+  const bool moved_frame = last != nullptr && last->frame != move.frame;
+  const std::array<bool, 3> lost = lost_axes(job.program, m);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (lost[axis] || moved_frame || move.fixed[axis]) carried.axes_mm[axis].reset();
+}
+
+// After a word of an axis has been shifted, no word of it is unshifted until the axis has gone to a
+// position of the machine. Where the deviation is judged a correction may be nothing.
+std::optional<Failure> axis_failure(const Job& job, std::size_t m, const MatchedMoves& matched,
+                                    CarriedShifts& carried) {
+  constexpr double unshifted_mm = 1e-9;
+  const Move &original = matched.original, &found = *matched.found.back().move;
+  forget_lost_axes(job, m, carried);
+  const bool judged = all_known(original.known_end) &&
+                      (original.handling == Handling::own || original.handling == Handling::group);
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!original.words[axis] || !found.words[axis] || original.relative || found.relative) continue;
+    const auto k = static_cast<Eigen::Index>(axis);
+    const double shift = found.end_mm[k] - original.end_mm[k], before = carried.axes_mm[axis].value_or(0);
+    if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job.options.tolerance / mm)
+      return Failure{
+          ErrorKind::not_compensated, original.line,
+          fmt::format("{} is the same as in the original, but the moves before it are shifted by {:.4f} mm",
+                      "XYZ"[axis], before),
+          found.line};
+    carried.axes_mm[axis] = shift;
+  }
+  return std::nullopt;
+}
+
+// Contours are shifted and turned in the plane: each way inside keeps its length there.
+std::optional<Failure> contour_failure(const Job& job, std::size_t m, const MatchedMoves& matched) {
+  const Move &original = matched.original, &first = *matched.found.front().move,
+             &found = *matched.found.back().move;
+  const bool inside = m > 0 && original.group != 0 && job.program.moves[m - 1].group == original.group;
+  if (!inside || !all_known(original.known_start) || !all_known(original.known_end) ||
+      !all_known(first.known_start))
+    return std::nullopt;
+  const double rounding_mm = roundings * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
+  const double off = (found.end_mm - first.start_mm).head<2>().norm() -
+                     (original.end_mm - original.start_mm).head<2>().norm();
+  if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
+  return Failure{
+      ErrorKind::not_compensated, original.line,
+      fmt::format("this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
+                  "shifted and turned as a whole",
+                  std::abs(off), off > 0 ? "longer" : "shorter"),
+      found.line};
+}
+
+// What the control takes off a line for its corners is one piece, at one height.
+std::optional<Failure> corner_failure(const MatchedMoves& matched) {
+  const Move& original = matched.original;
+  if (!original.corners || original.words[2] || !all_known(original.known_start)) return std::nullopt;
+  const double length_mm = (original.end_mm - original.start_mm).norm();
+  const auto check = [&](const Move& found, double taken_mm) -> std::optional<Failure> {
+    const Vector3 way = found.end_mm - found.start_mm;
+    const bool whole = way.norm() > taken_mm || taken_mm >= length_mm;
+    if (taken_mm == 0 || !all_known(found.known_start) || (way.z() == 0 && whole)) return std::nullopt;
+    const std::string size = std::isfinite(taken_mm) ? fmt::format("{:.4f} mm", taken_mm) : "a part";
+    return Failure{
+        ErrorKind::not_compensated, original.line,
+        fmt::format(
+            "the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
+            "mm; corners lie in one plane",
+            size, way.norm(), way.z()),
+        found.line};
+  };
+  if (auto failure = check(*matched.found.front().move, original.corners->begin_mm)) return failure;
+  return check(*matched.found.back().move, original.corners->end_mm);
+}
+
+}  // namespace
+
+std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched) {
+  constexpr double rounding_mm = 1e-6, rounding_rad = 1e-9;
+  const CorrectedMove& last = matched.found.back();
+  const ProgramFrame &wanted = job.program.frames[matched.original.frame],
+                     &found = last.program->frames[last.move->frame];
+  const double off = (found.origin_mm - wanted.origin_mm).norm();
+  const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm &&
+                    off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
+  if (same) return std::nullopt;
+  return Failure{
+      ErrorKind::not_compensated, matched.original.line,
+      fmt::format("the coordinates of this block are not those of the original: another offset, or {:.4f} mm "
+                  "off",
+                  off),
+      last.move->line};
+}
+
+std::optional<Failure> shift_failure(const Job& job, std::size_t m, const MatchedMoves& matched,
+                                     CarriedShifts& carried) {
+  if (auto failure = surface_failure(matched, carried)) return failure;
+  if (auto failure = call_failure(matched)) return failure;
+  if (auto failure = axis_failure(job, m, matched, carried)) return failure;
+  if (auto failure = contour_failure(job, m, matched)) return failure;
+  return corner_failure(matched);
+}
+
+}  // namespace counterflex
