@@ -50,7 +50,8 @@ bool any(const std::array<bool, 3>& axes) {
 void allow_changes(const Reading& r, Move& move) {
   const SortedBlock& b = r.sorted;
   const bool feed = move.motion == Motion::feed;
-  const bool unit = b.has(Action::inch) || b.has(Action::mm);  // the unit would change an F copied before it
+  const bool unit =
+      b.has(Action::inches) || b.has(Action::millimetres);  // the unit would change an F copied before it
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::retract) || b.has(MAction::machine);

@@ -21,8 +21,8 @@ enum class Action : std::uint8_t {
   own_way,     ///< motion defined by the control: G29, G70 to G72 of Haas, G150
   call,        ///< G65: runs a macro
   dwell,
-  inch,
-  mm,
+  inches,          ///< G20
+  millimetres,     ///< G21
   machine_move,    ///< G53: positions of the machine
   reference_move,  ///< G28, G30
   tool_length,     ///< G43, G44, G43.1

@@ -12,8 +12,8 @@ void mark_known(ModalState& state, UnknownMode doubt) {
 }
 
 void apply_unit(Reading& r) {
-  if (!r.sorted.has(Action::inch) && !r.sorted.has(Action::mm)) return;
-  r.state.unit = r.sorted.has(Action::inch) ? LengthUnit::inches : LengthUnit::millimetres;
+  if (!r.sorted.has(Action::inches) && !r.sorted.has(Action::millimetres)) return;
+  r.state.unit = r.sorted.has(Action::inches) ? LengthUnit::inches : LengthUnit::millimetres;
   mark_known(r.state, unknown_unit);
 }
 
