@@ -5,7 +5,7 @@ set(COUNTERFLEX_JAVASCRIPT_DIR /usr/share/javascript CACHE PATH
 set(page_folder ${CMAKE_CURRENT_SOURCE_DIR}/report/page)
 set(page_template ${page_folder}/page.html)
 set(page_styles ${COUNTERFLEX_JAVASCRIPT_DIR}/dygraphs/dygraph.min.css ${page_folder}/page.css
-    ${page_folder}/scene.css)
+    ${page_folder}/scene/scene.css)
 set(page_scripts ${COUNTERFLEX_JAVASCRIPT_DIR}/dygraphs/dygraph.min.js ${COUNTERFLEX_JAVASCRIPT_DIR}/three/three.min.js)
 file(STRINGS ${page_folder}/scripts.txt own_scripts)
 list(TRANSFORM own_scripts PREPEND ${page_folder}/)

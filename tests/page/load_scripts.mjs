@@ -6,9 +6,18 @@ import vm from 'node:vm';
 
 const folder = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../src/report/page');
 
+const paths = fs.readFileSync(path.join(folder, 'scripts.txt'), 'utf8').trim().split('\n');
+
+/** The text of a script of the page, by its name without folders. */
+function text_of(name) {
+  const found = paths.find((file) => path.basename(file) === name);
+  if (!found) throw new Error(`${name} is not in scripts.txt`);
+  return fs.readFileSync(path.join(folder, found), 'utf8');
+}
+
 /** The object `counterflex` after these scripts of the page have run, in this order. */
 export function load_scripts(...names) {
-  const texts = names.map((name) => fs.readFileSync(path.join(folder, name), 'utf8'));
+  const texts = names.map(text_of);
   const context = vm.createContext({});
   if (!names.includes('page_data.js')) vm.runInContext('var counterflex = {};', context);  // else it makes it
   for (const [i, text] of texts.entries()) vm.runInContext(text, context, {filename: names[i]});

@@ -2,8 +2,8 @@
 /// Waypoints that are solved at once, each from a start of its own.
 #include <optional>
 
-#include "expansion.hpp"
-#include "work.hpp"
+#include "statics/kernel/cells/expansion.hpp"
+#include "statics/kernel/equations/work.hpp"
 
 namespace counterflex::kernel {
 

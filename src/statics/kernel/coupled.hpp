@@ -1,7 +1,7 @@
 #pragma once
 /// The real machine and the nominal one that the controller knows, with the same actuators, as one system.
-#include "batch.hpp"
-#include "step.hpp"
+#include "statics/kernel/batch.hpp"
+#include "statics/kernel/equations/step.hpp"
 
 namespace counterflex::kernel {
 

@@ -1,5 +1,5 @@
 #if defined(__x86_64__)
-#include "solve_batch.hpp"
+#include "statics/kernel/solve_batch.hpp"
 
 namespace counterflex::kernel {
 

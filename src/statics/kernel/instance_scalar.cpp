@@ -1,4 +1,4 @@
-#include "solve_batch.hpp"
+#include "statics/kernel/solve_batch.hpp"
 
 namespace counterflex::kernel {
 

@@ -1,4 +1,4 @@
-#include "batch.hpp"
+#include "statics/kernel/batch.hpp"
 
 namespace counterflex::kernel {
 

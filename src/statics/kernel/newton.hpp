@@ -1,6 +1,6 @@
 #pragma once
 /// Newton's iteration with a fixed schedule of tangents: no lane depends on another one.
-#include "coupled.hpp"
+#include "statics/kernel/coupled.hpp"
 
 namespace counterflex::kernel {
 

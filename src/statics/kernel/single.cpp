@@ -1,10 +1,10 @@
-#include "single.hpp"
+#include "statics/kernel/single.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include "newton.hpp"
+#include "statics/kernel/newton.hpp"
 
 namespace counterflex::kernel {
 namespace {

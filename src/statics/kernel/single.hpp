@@ -4,7 +4,7 @@
 #include <memory>
 #include <optional>
 
-#include "states.hpp"
+#include "statics/kernel/machine/states.hpp"
 #include "statics/model/problem.hpp"
 
 namespace counterflex::kernel {

@@ -2,7 +2,7 @@
 /// A batch through the lanes of one instance.
 #include <limits>
 
-#include "from_cells.hpp"
+#include "statics/kernel/cells/from_cells.hpp"
 
 namespace counterflex::kernel {
 

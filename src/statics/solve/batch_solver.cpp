@@ -5,7 +5,7 @@
 #include <limits>
 
 #include "counterflex/geometry/pose.hpp"
-#include "statics/kernel/offset_bounds.hpp"
+#include "statics/kernel/cells/offset_bounds.hpp"
 #include "statics/solve/start_table.hpp"
 
 namespace counterflex {

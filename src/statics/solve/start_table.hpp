@@ -9,7 +9,7 @@
 #include <vector>
 
 #include "counterflex/statics/batch_solver.hpp"
-#include "statics/kernel/start_cell.hpp"
+#include "statics/kernel/cells/start_cell.hpp"
 
 namespace counterflex {
 

@@ -1,8 +1,8 @@
 #pragma once
 /// Waypoints solved by the kernel, and each of them by the solver of single waypoints, to compare.
 #include "kernel/batch.hpp"
-#include "kernel/flatten.hpp"
-#include "kernel/start_cell.hpp"
+#include "kernel/cells/start_cell.hpp"
+#include "kernel/machine/flatten.hpp"
 #include "statics/support/laws_weights.hpp"
 
 namespace counterflex::laws {

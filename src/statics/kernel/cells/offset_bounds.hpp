@@ -1,6 +1,6 @@
 #pragma once
 /// Bounds of what happens between the ends of a short line. EQUATIONS.md, section 11, "Short lines".
-#include "batch.hpp"
+#include "statics/kernel/batch.hpp"
 
 namespace counterflex::kernel {
 

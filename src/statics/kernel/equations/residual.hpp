@@ -1,6 +1,6 @@
 #pragma once
 /// The gradient of energy at a state. EQUATIONS.md, section 11.
-#include "work.hpp"
+#include "statics/kernel/equations/work.hpp"
 
 namespace counterflex::kernel {
 

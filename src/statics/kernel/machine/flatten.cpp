@@ -1,11 +1,11 @@
-#include "flatten.hpp"
+#include "statics/kernel/machine/flatten.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
 
 #include "counterflex/geometry/pose.hpp"
-#include "work.hpp"
+#include "statics/kernel/equations/work.hpp"
 
 namespace counterflex::kernel {
 namespace {

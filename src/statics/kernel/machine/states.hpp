@@ -1,6 +1,6 @@
 #pragma once
 /// Between configurations and the kernel's numbers.
-#include "flatten.hpp"
+#include "statics/kernel/machine/flatten.hpp"
 
 namespace counterflex::kernel {
 

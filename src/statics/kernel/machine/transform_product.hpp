@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "counterflex/geometry/pose.hpp"
-#include "flat_machine.hpp"
+#include "statics/kernel/machine/flat_machine.hpp"
 
 namespace counterflex::kernel {
 

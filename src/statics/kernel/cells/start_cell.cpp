@@ -1,11 +1,11 @@
-#include "start_cell.hpp"
+#include "statics/kernel/cells/start_cell.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
 #include "counterflex/geometry/pose.hpp"
-#include "offset_bounds.hpp"
+#include "statics/kernel/cells/offset_bounds.hpp"
 
 namespace counterflex::kernel {
 namespace {

@@ -1,7 +1,7 @@
 #pragma once
 /// Vectors, rotations, frames, twists and wrenches of the kernel. Twists (v, w) and wrenches (f, m) are about
 /// one common point, axes of M.
-#include "numbers.hpp"
+#include "statics/kernel/equations/numbers.hpp"
 
 namespace counterflex::kernel {
 

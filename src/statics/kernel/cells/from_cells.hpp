@@ -1,6 +1,6 @@
 #pragma once
 /// Waypoints that begin in cells, in the lanes of one instance. EQUATIONS.md, section 11, "Starts".
-#include "newton.hpp"
+#include "statics/kernel/newton.hpp"
 
 namespace counterflex::kernel {
 

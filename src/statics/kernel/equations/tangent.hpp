@@ -1,7 +1,7 @@
 #pragma once
 /// The second derivative of energy, eliminated block by block: joints, nodes, platform. EQUATIONS.md,
 /// section 11.
-#include "residual.hpp"
+#include "statics/kernel/equations/residual.hpp"
 
 namespace counterflex::kernel {
 

@@ -2,7 +2,7 @@
 /// Functions near a point as polynomials of a few variables. EQUATIONS.md, section 11, "Starts".
 #include <vector>
 
-#include "spatial.hpp"
+#include "statics/kernel/equations/spatial.hpp"
 
 namespace counterflex::kernel {
 

@@ -2,8 +2,8 @@
 /// Starts of the kernel that depend on the place alone. EQUATIONS.md, section 11.
 #include <optional>
 
-#include "batch.hpp"
-#include "flatten.hpp"
+#include "statics/kernel/batch.hpp"
+#include "statics/kernel/machine/flatten.hpp"
 
 namespace counterflex::kernel {
 

@@ -4,7 +4,7 @@
 #include <vector>
 
 #include "counterflex/statics/nominal.hpp"
-#include "transform_product.hpp"
+#include "statics/kernel/machine/transform_product.hpp"
 
 namespace counterflex::kernel {
 

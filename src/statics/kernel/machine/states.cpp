@@ -1,11 +1,11 @@
-#include "states.hpp"
+#include "statics/kernel/machine/states.hpp"
 
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "counterflex/geometry/pose.hpp"
+#include "statics/kernel/equations/work.hpp"
 #include "statics/model/part.hpp"
-#include "work.hpp"
 
 namespace counterflex::kernel {
 namespace {

@@ -1,6 +1,6 @@
 #pragma once
 /// The step that makes the linearised equations zero, and the state behind it.
-#include "tangent.hpp"
+#include "statics/kernel/equations/tangent.hpp"
 
 namespace counterflex::kernel {
 

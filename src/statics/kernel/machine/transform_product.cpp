@@ -1,8 +1,8 @@
-#include "transform_product.hpp"
+#include "statics/kernel/machine/transform_product.hpp"
 
 #include <algorithm>
 
-#include "work.hpp"
+#include "statics/kernel/equations/work.hpp"
 
 namespace counterflex::kernel {
 

@@ -3,8 +3,8 @@
 /// step.
 #include <vector>
 
-#include "flat_machine.hpp"
-#include "spatial.hpp"
+#include "statics/kernel/equations/spatial.hpp"
+#include "statics/kernel/machine/flat_machine.hpp"
 #include "statics/model/tolerances.hpp"
 
 namespace counterflex::kernel {

@@ -1,4 +1,4 @@
-#include "offset_bounds.hpp"
+#include "statics/kernel/cells/offset_bounds.hpp"
 
 #include <algorithm>
 #include <cmath>
