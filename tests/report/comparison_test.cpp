@@ -54,7 +54,7 @@ TEST_CASE("a run compared with itself has no differences") {
   CHECK(comparison.numbers.size() > 20);
   for (const ComparedNumber& number : comparison.numbers)
     if (number.difference()) CHECK(*number.difference() == 0);
-  CHECK(contains(comparison.conclusion, "a and a have the same largest model residual: 6.0 um."));
+  CHECK(contains(comparison.conclusion, "a and a have the same largest model residual: 6.0 µm."));
 }
 
 TEST_CASE("differences are the second run's value minus the first one's, percents are of the first") {
@@ -70,8 +70,8 @@ TEST_CASE("differences are the second run's value minus the first one's, percent
   CHECK(number_at(comparison, "/summary/before/max_axis_mm/1").values[0] == 0.3);
   CHECK_FALSE(number_at(comparison, "/summary/before/max_rotation_deg").percent());
   CHECK(contains(comparison.conclusion,
-                 "b leaves 3.0 um less than a: a largest model residual of 3.0 um instead of 6.0 um."));
-  CHECK(contains(comparison.conclusion, "Uncorrected, b is off by up to 250.0 um, 250.0 um less than a."));
+                 "b leaves 3.0 µm less than a: a largest model residual of 3.0 µm instead of 6.0 µm."));
+  CHECK(contains(comparison.conclusion, "Uncorrected, b is off by up to 250.0 µm, 250.0 µm less than a."));
 }
 
 TEST_CASE("every number of a comparison is the one in the report") {
@@ -127,7 +127,7 @@ TEST_CASE("missing values of a prediction are a dash on the terminal and null in
   CHECK(std::any_of(lines.begin(), lines.end(), [](const std::string& line) {
     return line == "  largest                                        -      0.0060           -";
   }));
-  CHECK(contains(comparison.conclusion, "a, which corrects nothing, is off by up to 500.0 um"));
+  CHECK(contains(comparison.conclusion, "a, which corrects nothing, is off by up to 500.0 µm"));
 }
 
 TEST_CASE("two predictions, and runs without solved waypoints, also have a conclusion") {
@@ -136,7 +136,7 @@ TEST_CASE("two predictions, and runs without solved waypoints, also have a concl
   const ReportFile nothing = report_named(
       "b", to_json(predicted(run, {}, Failure{ErrorKind::not_compensated, 4, "no equilibrium"})));
   CHECK(contains(compare(a, a, "0.1.0").conclusion,
-                 "Uncorrected, a and a are off by the same amount, by up to 500.0 um."));
+                 "Uncorrected, a and a are off by the same amount, by up to 500.0 µm."));
   const Comparison comparison = compare(a, nothing, "0.1.0");
   CHECK(comparison.runs[1].failure == "line 4: no equilibrium");
   CHECK(comparison.conclusion == "There is no deviation to compare. b failed before anything was solved.");
@@ -159,7 +159,7 @@ TEST_CASE("the conclusion is in the unit that both reports show deviations in, e
   CHECK(contains(conclusion("inch", "inch"),
                  "a largest model residual of 0.00200 inch instead of 0.01000 inch."));
   CHECK(contains(conclusion("mm", "mm"), "of 0.0508 mm instead of 0.2540 mm."));
-  CHECK(contains(conclusion("um", "um"), "of 50.8 um instead of 254.0 um."));
+  CHECK(contains(conclusion("um", "um"), "of 50.8 µm instead of 254.0 µm."));
   CHECK(contains(conclusion("um", "inch"), "of 0.0508 mm instead of 0.2540 mm."));
 }
 
@@ -180,6 +180,14 @@ TEST_CASE("operations are matched by tool and comment, and one that only the sec
   CHECK_FALSE(comparison.operations[2].before_mm[0]);
   CHECK(comparison.unit == "um");
   CHECK(contains(to_text(comparison, false), "  T1 POCKET"));
+}
+
+TEST_CASE("the conclusion has µm where the terminal shows UTF-8, else um") {
+  const MadeUpRun run;
+  const ReportFile file = report_named("a", made_up_report(1, run));
+  const Comparison comparison = compare(file, file, "0.1.0");
+  CHECK(contains(to_text(comparison, false, true), "largest model residual: 6.0 µm."));
+  CHECK(contains(to_text(comparison, false, false), "largest model residual: 6.0 um."));
 }
 
 TEST_CASE("lines of the comparison are at most 100 characters long, and colour only adds escape sequences") {

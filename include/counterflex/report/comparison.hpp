@@ -55,7 +55,7 @@ struct Comparison {
   std::vector<RunDifference> differences;
   std::vector<std::string> same;              ///< inputs that both have, by role
   std::vector<ComparedOperation> operations;  ///< those of the first run, then those that only the second has
-  std::string conclusion;                     ///< in a sentence or two
+  std::string conclusion;                     ///< in a sentence or two, UTF-8
 };
 
 /// Throws `InputError` (ErrorKind::usage) where something in a report is of another kind than reports have
@@ -66,6 +66,7 @@ Comparison compare(const ReportFile& a, const ReportFile& b, const std::string& 
 std::string to_json(const Comparison& comparison);
 
 /// Tables for people, lines of at most 100 characters (paths and other long words stay whole).
-std::string to_text(const Comparison& comparison, bool colour);
+/// `marks`: the terminal shows UTF-8, and so "µm".
+std::string to_text(const Comparison& comparison, bool colour, bool marks = false);
 
 }  // namespace counterflex

@@ -61,7 +61,7 @@ std::optional<ErrorKind> run_compare(const Options& options, Console& console) {
   if (options.json)
     write_result(json);
   else
-    write_painted_result(to_text(comparison, console.colour_out()));
+    write_painted_result(to_text(comparison, console.colour_out(), console.marks_out()));
   return std::nullopt;
 }
 

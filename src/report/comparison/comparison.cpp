@@ -129,7 +129,7 @@ Comparison compare(const ReportFile& a, const ReportFile& b, const std::string& 
                         .same = same_inputs(reports),
                         .operations = compared_operations(reports),
                         .conclusion = ""};
-  comparison.conclusion = conclusion_of(comparison);
+  comparison.conclusion = conclusion_of(comparison, true);
   return comparison;
 }
 

@@ -13,9 +13,10 @@ namespace {
 /// Lengths in the unit of both reports.
 struct ShownLength {
   std::string unit;
+  bool utf8;  ///< the reader shows "µm"
 
   std::string operator()(double value_mm) const {
-    if (unit == "um") return format_fixed(value_mm * 1000, 1) + " um";
+    if (unit == "um") return format_fixed(value_mm * 1000, 1) + (utf8 ? " \u00b5m" : " um");
     if (unit == "inch") return format_fixed(value_mm * (mm / inch), 5) + " inch";
     return format_fixed(value_mm, 4) + " mm";
   }
@@ -75,8 +76,8 @@ std::string main_sentence(const Comparison& c, const ShownLength& length) {
 
 }  // namespace
 
-std::string conclusion_of(const Comparison& comparison) {
-  std::string text = main_sentence(comparison, ShownLength{comparison.unit});
+std::string conclusion_of(const Comparison& comparison, bool utf8) {
+  std::string text = main_sentence(comparison, ShownLength{comparison.unit, utf8});
   const TwoValues before = values_of(comparison, "/summary/before/max_mm");
   for (std::size_t i = 0; i < before.size(); ++i)
     if (const ComparedRun& run = comparison.runs[i]; !run.failure.empty())

@@ -18,7 +18,7 @@ std::vector<RunDifference> run_differences(const TwoReports& reports);
 /// Roles of the inputs with the same bytes in both.
 std::vector<std::string> same_inputs(const TwoReports& reports);
 
-/// The conclusion of a comparison whose other parts are complete.
-std::string conclusion_of(const Comparison& comparison);
+/// The conclusion of a comparison whose other parts are complete. `utf8`: with "µm", else with "um".
+std::string conclusion_of(const Comparison& comparison, bool utf8);
 
 }  // namespace counterflex

@@ -4,6 +4,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/comparison.hpp"
+#include "report/comparison/comparison_parts.hpp"
 #include "report/text/text_layout.hpp"
 
 namespace counterflex {
@@ -114,13 +115,13 @@ std::string differences_text(const Comparison& comparison, const Ink& ink) {
 
 }  // namespace
 
-std::string to_text(const Comparison& comparison, bool colour) {
+std::string to_text(const Comparison& comparison, bool colour, bool marks) {
   const Ink ink{colour};
   std::string text = ink.bold("compare") + line_break();
   text += run_text(comparison.runs[0], "A") + run_text(comparison.runs[1], "B");
   text += number_tables(comparison, ink) + operations_table(comparison, ink);
   text += differences_text(comparison, ink);
-  return text + line_break() + wrapped("", comparison.conclusion, 0);
+  return text + line_break() + wrapped("", conclusion_of(comparison, marks), 0);
 }
 
 }  // namespace counterflex
