@@ -1,15 +1,15 @@
-"""A post-processor for FreeCAD's CAM (Path) workbench: lets another one write the program, and compensates it.
+"""A post-processor for the CAM (Path) workbench of FreeCAD. Another post-processor writes the program; this one compensates it.
 
-Put this file where FreeCAD looks for post-processors (Preferences, CAM, Job Preferences, Defaults; else the folder of macros)
-and choose `counterflex` as the post-processor of a job. Its arguments:
+Put this file into FreeCAD's folder of post-processors (Preferences, CAM, Job Preferences, Defaults) or into the folder of macros.
+Choose `counterflex` as the post-processor of a job. Its arguments:
 
-    --post NAME           the post-processor that writes the program, `linuxcnc` unless given; one that is a script, with an
-                          `export` function: in newer versions of FreeCAD those whose names end in _legacy
+    --post NAME           the post-processor that writes the program; default `linuxcnc`. It must be a script with an `export`
+                          function. In newer versions of FreeCAD the names of these scripts end in _legacy
     --counterflex PATH    the program counterflex, if it is not in PATH
     --compensate "..."    options of `counterflex compensate`: "-m /shop/mill.toml -f /shop/forces.csv --report /shop/reports/"
 
-All other arguments go to that post-processor. Where counterflex fails, so does the post-processing, with its message: nothing
-is written under the name of the program.
+All other arguments are passed to the other post-processor. If counterflex fails, the post-processing fails with the message of
+counterflex, and no file with the name of the program is written.
 """
 
 import argparse
@@ -30,7 +30,7 @@ TOOLTIP_ARGS = parser.format_help()
 
 
 def export(objectslist, filename, argstring):
-    """FreeCAD calls this: the text of the corrected program, which is also written to `filename` unless that is "-"."""
+    """Called by FreeCAD. Returns the corrected program and writes it to `filename`, except if `filename` is "-"."""
     own, others = parser.parse_known_args(shlex.split(argstring))
     program = posted(own.post, objectslist, shlex.join(["--no-show-editor", *others]))
     corrected = compensated(own.counterflex, shlex.split(own.compensate), program)
@@ -40,7 +40,7 @@ def export(objectslist, filename, argstring):
 
 
 def posted(name, objectslist, argstring):
-    """What the post-processor `name` makes of the objects; some return it, others only write it."""
+    """The program that the post-processor `name` makes. Some post-processors return it, others only write it."""
     post = find_post(name)
     with tempfile.TemporaryDirectory() as folder:
         filename = os.path.join(folder, "posted.nc")
@@ -54,14 +54,14 @@ def posted(name, objectslist, argstring):
 
 
 def find_post(name):
-    """The module NAME_post, from where FreeCAD looks for post-processors."""
+    """The module NAME_post from FreeCAD's folders of post-processors."""
     places = []
     try:
         import Path
 
         places = list(Path.Preferences.searchPathsPost())
     except (ImportError, AttributeError):
-        pass  # an older FreeCAD, or none: what Python itself finds
+        pass  # an older FreeCAD, or no FreeCAD: Python searches its own folders
     sys.path[:0] = places
     try:
         post = importlib.import_module(f"{name}_post")
@@ -73,7 +73,7 @@ def find_post(name):
 
 
 def compensated(counterflex, options, program):
-    """The corrected program; RuntimeError with counterflex's own message where there is none."""
+    """The corrected program. Raises RuntimeError with the message of counterflex if it fails."""
     command = [counterflex, "compensate", "-", *options, "-o", "-", "--quiet"]
     run = subprocess.run(command, input=program.encode(), capture_output=True)
     if run.returncode != 0:
@@ -83,7 +83,7 @@ def compensated(counterflex, options, program):
 
 
 def write(filename, text):
-    """Under another name first: half a program is never found under this one."""
+    """Writes to another name and renames the file, so that `filename` is never incomplete."""
     unfinished = filename + ".part"
     with open(unfinished, "w", newline="") as file:
         file.write(text)

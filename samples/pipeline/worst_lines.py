@@ -1,5 +1,5 @@
 #!/usr/bin/env python3
-"""Reads the document of --json and says where a program is worst: counterflex ... --json | worst_lines.py"""
+"""Reads the document of --json and prints the lines with the largest deviations: counterflex ... --json | worst_lines.py"""
 import json
 import sys
 
