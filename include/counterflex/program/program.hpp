@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/turn.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/boxed_optional.hpp"
 
@@ -123,6 +124,21 @@ struct CornerEnds {
   double begin_mm = 0, end_mm = 0;
 };
 
+/// The tool's orientation along a move of a six-axis machine, in program coordinates. The numbers are as
+/// programmed; those of a start are those at the end of the move before.
+struct MoveOrientation {
+  OrientationForm form = OrientationForm::fixed_axes;
+  bool by_angles = false;  ///< the control interpolates the angles; else it turns about one axis
+  OrientationNumbers start{}, end{};
+  std::array<PackedAxisWord, 4> words;  ///< of the block, by number
+};
+
+/// How the tool turns along the move.
+Turn turn_of(const MoveOrientation& orientation);
+
+/// The numbers that the original has at fraction `u` of the move.
+OrientationNumbers numbers_at(const MoveOrientation& orientation, double u);
+
 /// How a move is corrected.
 enum class Handling : std::uint8_t {
   own,    ///< by the correction at its own end
@@ -155,6 +171,8 @@ struct Move {
   BoxedOptional<CycleMove> cycle;
   BoxedOptional<CalledCycle> called;  ///< if set, the word of Z is its first height
   BoxedOptional<CornerEnds> corners;  ///< corners at its ends; infinite if a size is unknown
+  /// Of a program that turns the tool. Its position counts as known only where its orientation is.
+  BoxedOptional<MoveOrientation> orientation;
   /// Of the modal comment (FORCE ...): (N, N m) on the tool, machine frame; empty after (FORCE OFF). A
   /// comment applies from its own block on.
   BoxedOptional<Vector6> force;
@@ -197,7 +215,7 @@ struct Move {
   bool may_jump : 1 = false;
   bool may_insert_words : 1 = true;  ///< axis words may be inserted; false for a block with G43, G44 or G49
 };
-static_assert(sizeof(Move) <= 248, "programs have millions of moves");
+static_assert(sizeof(Move) <= 256, "programs have millions of moves");
 
 /// Whether the block of an arc stays at the height of its start: it has no word of the axis normal to its
 /// plane and must not get one.

@@ -25,6 +25,10 @@ struct ReadOptions {
   /// By H, or by the active tool if G43 has no H: if both lengths are known, Z stays known at a tool change.
   std::map<long, double> tool_lengths_mm{};
   bool evaluate = false;  ///< evaluates variables that the program sets to constants, and expressions of them
+  /// LinuxCNC: A, B and C are the tool's orientation (degrees about X, Y and Z, fixed axes, in this order),
+  /// as the kinematics of a six-axis machine have it; else words of these axes that are not zero end
+  /// correction.
+  bool tool_orientation = false;
   /// Replaces calls by M98, CALL LBL and O-words with plain numbers by the bodies.
   bool expand_subprograms = false;
 };

@@ -50,19 +50,21 @@ struct WriteOptions {
 struct Via {
   Vector3 end_mm = Vector3::Zero();
   std::optional<Vector3> centre_mm{};
+  BoxedOptional<OrientationNumbers> orientation{};  ///< of a move that has one, in its form
 };
 
 /// New end of one move, and moves inserted before it, in program coordinates, mm.
 struct MoveEdit {
   std::size_t move = 0;  ///< index into Program::moves
   /// Inserts a feed move to this point first, also before a rapid; needs `may_jump`.
-  std::optional<Vector3> jump_mm{};
+  std::optional<Via> jump{};
   /// Points on the path, same motion and feed; need `may_split`; under G93 they share the block's time by
   /// length.
   std::vector<Via> inserted{};
   Vector3 end_mm = Vector3::Zero();
   /// Of an arc's last piece; empty for an arc: it is written as chords through the inserted points, under G1.
   std::optional<Vector3> centre_mm{};
+  BoxedOptional<OrientationNumbers> orientation{};  ///< at the end, of a move that has one, in its form
   std::optional<double> bottom_mm{}, retract_mm{};  ///< of a cycle: its Z and R as absolute coordinates
 };
 
@@ -79,7 +81,8 @@ Vector3 as_written_mm(const Vector3& p_mm, LengthUnit unit, const std::array<int
 /// Position of the tool in the written text, in program coordinates (mm). Empty for an axis whose position is
 /// unknown.
 struct TextPosition : std::array<std::optional<double>, 3> {
-  std::optional<double> cycle_initial_mm{};  ///< Z at which the active series of cycles began
+  std::optional<double> cycle_initial_mm{};         ///< Z at which the active series of cycles began
+  BoxedOptional<OrientationNumbers> orientation{};  ///< the numbers in the text, where they are known
 };
 
 /// The position in the written text after `move`, whose end is edited to `end_mm`. `before` is the position

@@ -86,7 +86,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   if (!move.may_jump && !move.may_split) return true;
   const Vector3 start_mm = in_words_mm(job_, move, planned.start_target);
   if (move.may_jump)
-    emitted.edit.jump_mm = start_mm;
+    emitted.edit.jump = Via{start_mm};
   else
     emitted.edit.inserted.push_back({start_mm});
   go_through(move, {start_mm}, piece_held_);

@@ -189,8 +189,8 @@ void Emitter::put(EmittedMove emitted) {
 void Emitter::take_in(const MoveEdit& edit) {
   const Move& move = job_.program.moves[edit.move];
   come_to(move);
-  if (edit.jump_mm || !edit.inserted.empty()) state_.held = before(move);
-  if (edit.jump_mm) go_through(move, {*edit.jump_mm}, state_.held);
+  if (edit.jump || !edit.inserted.empty()) state_.held = before(move);
+  if (edit.jump) go_through(move, *edit.jump, state_.held);
   for (const Via& via : edit.inserted) go_through(move, via, state_.held);
   state_.held = text_position_after(move, state_.held, edit.end_mm, job_.options.write);
 }

@@ -95,7 +95,7 @@ void read_modal_move(const Block& block, Reading& r) {
 
 /// Whether the words of the block move the tool under the active motion.
 bool has_words_of_motion(const Reading& r) {
-  if (has_axis_word(r.sorted)) return true;
+  if (has_axis_word(r.sorted) || (may_turn_tool(r) && r.sorted.has_any("ABC"))) return true;
   switch (r.state.motion) {
     case MotionMode::clockwise:
     case MotionMode::counter_clockwise:
@@ -221,6 +221,7 @@ void apply_words(const Block& block, Reading& r) {
   else
     apply_axis_words(block, r);
   if (r.program.moves.size() > moves) join_contour(r);
+  refuse_beside_orientation(block, r);
   if (r.sorted.has(MAction::retract)) apply_retract(block, r);
 }
 
@@ -230,8 +231,10 @@ void read_words(const Block& block, Reading& r) {
   const ModalState before = r.state;
   apply_words(block, r);
   mark_differences_unknown(before, r.state);
-  for (std::size_t axis = 0; axis < 3; ++axis)
+  for (std::size_t axis = 0; axis < 3; ++axis) {
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
+    if (r.sorted.word("ABC"[axis]) != nullptr) r.state.known_angles[axis] = false;
+  }
 }
 
 void end_program(Reading& r) {

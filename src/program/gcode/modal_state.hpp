@@ -78,8 +78,11 @@ struct ModalState {
   std::optional<LengthUnit> unit;
   std::array<bool, 3> known{};
   Vector3 position_mm = Vector3::Zero();
-  double feed = 0;                      ///< as programmed
-  std::optional<LengthUnit> feed_unit;  ///< the unit when it was programmed
+  bool turns_tool = false;  ///< a word of A, B or C was read as the tool's orientation
+  std::array<bool, 3> known_angles{};
+  Vector3 angles_deg = Vector3::Zero();  ///< A, B, C
+  double feed = 0;                       ///< as programmed
+  std::optional<LengthUnit> feed_unit;   ///< the unit when it was programmed
   FeedUnit feed_mode = FeedUnit::per_minute;
   double spindle_rpm = 0;
   int normal = 2;         ///< axis normal to the plane

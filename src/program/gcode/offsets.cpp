@@ -135,7 +135,9 @@ void apply_tool_length(const Block& block, Reading& r) {
 
 void watch_other_axes(const Block& block, Reading& r) {
   if (r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace)) return;
-  for (const char letter : {'A', 'B', 'C', 'U', 'V', 'W'})
+  // Beside a position they turn the tool of a six-axis machine.
+  const bool turns = may_turn_tool(r) && !r.sorted.has(Action::set_data) && !r.sorted.has(Action::shift);
+  for (const char letter : std::string_view(turns ? "UVW" : "ABCUVW"))
     if (!is_zero_or_absent(r.sorted.word(letter)) && (r.state.displaced & rotary) == 0)
       add_displacement(block, r, rotary);
 }

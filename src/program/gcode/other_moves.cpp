@@ -16,6 +16,7 @@ void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   const bool all = !has_axis_word(r.sorted);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) move_by_machine(r, axis);
+  if (all || r.sorted.has_any("ABC")) r.state.known_angles.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);

@@ -167,10 +167,55 @@ bool place_by_angle(Reading& r, Move& move) {
 
 }  // namespace
 
+bool may_turn_tool(const Reading& r) {
+  return r.options.tool_orientation && r.dialect.family == linuxcnc_family;
+}
+
+namespace {
+
+constexpr std::string_view letters_of_angles = "ABC";
+
+/// Reads A, B and C. Under G91 and where the block is not followed the angle is unknown.
+void place_angles(const Block& block, Reading& r, Move& move, bool followed) {
+  ModalState& state = r.state;
+  MoveOrientation orientation{.by_angles = true};
+  const bool starts_known = state.turns_tool && all_known(state.known_angles);
+  for (std::size_t i = 0; i < 3; ++i) {
+    orientation.start[i] = coordinate(state.angles_deg, i);
+    if (const Word* word = r.sorted.word(letters_of_angles[i])) {
+      state.turns_tool = true;
+      state.known_angles[i] = followed && word->literal && !r.relative();
+      if (state.known_angles[i]) orientation.words[i] = AxisWord{word->number, word->decimals};
+      coordinate(state.angles_deg, i) = word->value;
+    }
+    orientation.end[i] = coordinate(state.angles_deg, i);
+  }
+  if (!state.turns_tool) return;
+  if (!starts_known) move.known_start.fill(false);
+  if (all_known(state.known_angles))
+    move.orientation = orientation;
+  else
+    note_uncorrected(block, r,
+                     "the tool's orientation is not known: program A, B and C with plain numbers under G90");
+}
+
+}  // namespace
+
 const Word& first_axis_word(const Block& block) {
   for (const Word& word : block.words)
     if (word.letter >= 'X') return word;
   return block.words.front();
+}
+
+void refuse_beside_orientation(const Block& block, const Reading& r) {
+  if (!r.state.turns_tool) return;
+  const Word& word = block.words.front();
+  if (r.state.motion == MotionMode::cycle)
+    refuse_word(block, r, word,
+                "a drilling cycle of a program that turns the tool by A, B and C is not supported");
+  if (r.state.contour != Contour::none)
+    refuse_word(block, r, word,
+                "G41 and G42 are not supported in a program that turns the tool by A, B and C");
 }
 
 bool has_axis_word(const SortedBlock& sorted) {
@@ -197,6 +242,10 @@ std::string_view why_not_followed(const Reading& r) {
   return unknown_modes != 0 ? unknown_mode_text(unknown_modes) : std::string_view();
 }
 
+bool has_known_orientation(const ModalState& state) {
+  return !state.turns_tool || all_known(state.known_angles);
+}
+
 Move& begin_move(const Block& block, Reading& r, Motion motion) {
   Move& move = r.program.moves.emplace_back();
   move.line = block.line;
@@ -205,7 +254,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.block = block.span;
   move.motion = motion;
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
-  move.known_start = r.state.known;
+  if (has_known_orientation(r.state)) move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
   r.moved_by_machine.fill(false);
   move.relative = r.relative();
@@ -253,6 +302,7 @@ void fix_axis(Reading& r, Move& move, std::size_t axis) {
 
 void place_words(const Block& block, Reading& r, Move& move) {
   const std::string_view why = why_not_followed(r);
+  if (may_turn_tool(r)) place_angles(block, r, move, why.empty());
   const bool macro = only_calls_macro(r);
   bool all_plain = true;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -280,7 +330,7 @@ void place_words(const Block& block, Reading& r, Move& move) {
 }
 
 void finish_move(Reading& r, Move& move) {
-  move.known_end = r.state.known;
+  if (has_known_orientation(r.state)) move.known_end = r.state.known;
   move.end_mm = r.state.position_mm;
   if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
   allow_changes(r, move);

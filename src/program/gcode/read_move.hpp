@@ -13,6 +13,15 @@ const Word& first_axis_word(const Block& block);
 
 bool has_axis_word(const SortedBlock& sorted);
 
+/// Whether A, B and C are the tool's orientation.
+bool may_turn_tool(const Reading& reading);
+
+/// Refuses drilling cycles and cutter compensation in a program that turns the tool.
+void refuse_beside_orientation(const Block& block, const Reading& reading);
+
+/// Whether the tool's orientation is known, or no word turns it.
+bool has_known_orientation(const ModalState& state);
+
 /// Why moves cannot be followed now: a condition, a displacement, an unknown state. Empty if they can.
 std::string_view why_not_followed(const Reading& reading);
 

@@ -26,9 +26,9 @@ struct Plan {
 
 Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   Plan plan;
-  if (edit.jump_mm) plan.stops.push_back({{*edit.jump_mm}, 1});
+  if (edit.jump) plan.stops.push_back({*edit.jump, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
-  plan.stops.push_back({{edit.end_mm, edit.centre_mm}, motion});
+  plan.stops.push_back({{edit.end_mm, edit.centre_mm, edit.orientation}, motion});
   const bool first = o.is_first_piece && o.move.motion == Motion::feed && !o.block.corner;
   plan.own = first ? 0 : plan.stops.size() - 1;
   return plan;
@@ -159,7 +159,8 @@ bool changes_numbers_only(const Program& program, const MoveEdit& edit, const Te
                           const CycleWords& cycle, const WriteOptions& options, TextState& state,
                           Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  if (edit.jump_mm || !edit.inserted.empty() || state.restate_motion || move.called || move.angle_axis != 0)
+  if (edit.jump || !edit.inserted.empty() || state.restate_motion || move.called || move.angle_axis != 0 ||
+      move.orientation)
     return false;
   const int motion = motion_of(move);
   const Step step = round_step(move, before, {edit.end_mm, edit.centre_mm}, motion, Place::end, options);
@@ -196,7 +197,7 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
                    const WriteOptions& options, TextState& state, Rewritten& out) {
   const Move& move = program.moves[edit.move];
   assert(edit.inserted.empty() || move.may_split || move.may_position || changes_height_inside(move));
-  assert(!edit.jump_mm || move.may_jump);
+  assert(!edit.jump || move.may_jump);
   const TextPosition before = known_text_position(move, state.position);
   CycleWords cycle;
   if (move.cycle) cycle = round_cycle(move, before[2], edit.bottom_mm, edit.retract_mm, state.cycle, options);

@@ -10,6 +10,10 @@
 
 namespace counterflex {
 
+bool is_angle(const Word& word) {
+  return word.letter >= 'A' && word.letter <= 'C';
+}
+
 bool is_axis(const Word& word) {
   return word.letter >= 'X' && word.letter <= 'Z';
 }
@@ -70,8 +74,9 @@ bool is_first_piece(const Original& o) {
   return begins_with_label(o) ||
          std::any_of(o.block.words.begin(), o.block.words.end(),
                      [&](const Word& word) {
-                       return !is_axis(word) && !is_motion(word) && word.letter != 'F' &&
-                              word.letter != 'N' && !(arc && (is_centre(word) || word.letter == 'P'));
+                       return !is_axis(word) && !(o.move.orientation && is_angle(word)) && !is_motion(word) &&
+                              word.letter != 'F' && word.letter != 'N' &&
+                              !(arc && (is_centre(word) || word.letter == 'P'));
                      }) ||
          std::any_of(o.block.comments.begin(), o.block.comments.end(), [&](Span comment) {
            return read_force_comment(o.program.text, o.program.file, o.block, comment).has_value();

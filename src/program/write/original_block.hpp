@@ -33,6 +33,9 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
 
 bool is_axis(const Word& word);
 
+/// A, B or C.
+bool is_angle(const Word& word);
+
 /// I, J, K or R.
 bool is_centre(const Word& word);
 

@@ -28,8 +28,8 @@ struct PlainEdit {
 /// Whether the coordinates of the words alone determine the end of the move.
 bool is_plain_move(const Move& move) {
   return !move.arc && !move.cycle && !move.called && move.angle_axis == 0 && !move.relative &&
-         move.incremental == 0 && !move.block_delete && !move.fixed[0] && !move.fixed[1] && !move.fixed[2] &&
-         all_known(move.known_end);
+         move.incremental == 0 && !move.orientation && !move.block_delete && !move.fixed[0] &&
+         !move.fixed[1] && !move.fixed[2] && all_known(move.known_end);
 }
 
 /// A digit first, or a minus and a digit: no plus, and a zero before the decimal point.
@@ -121,7 +121,7 @@ PlainRewriting::PlainRewriting(const Program& window, const WriteOptions& option
 bool append_plain_block(const PlainRewriting& common, const MoveEdit& to, std::size_t copied,
                         TextPosition& position, Rewritten& out) {
   const Move& move = common.program.moves[to.move];
-  if (to.jump_mm || !to.inserted.empty() || !is_plain_move(move)) return false;
+  if (to.jump || !to.inserted.empty() || !is_plain_move(move)) return false;
   PlainEdit edit;
   if (!round_words(common, to, position, edit)) return false;
   std::array<char, 256> buffer;

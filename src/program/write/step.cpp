@@ -1,5 +1,7 @@
 #include "program/write/step.hpp"
 
+#include <algorithm>
+
 #include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
 #include "program/text/number_style.hpp"
@@ -72,6 +74,15 @@ void round_angle(const Move& move, const Via& via, const WriteOptions& options, 
   if (written.number.write) c = written;
 }
 
+void round_orientation(const Move& move, const Via& via, Step& step) {
+  const OrientationNumbers wanted = via.orientation ? *via.orientation : move.orientation->end;
+  OrientationNumbers& after = step.after.orientation.emplace();
+  for (std::size_t i = 0; i < step.angles.size(); ++i) {
+    step.angles[i] = round_angle(move, i, step.before, wanted[i], step.place);
+    after[i] = step.angles[i].value;
+  }
+}
+
 }  // namespace
 
 Step round_step(const Move& move, const TextPosition& before, const Via& via, int motion, Place place,
@@ -90,6 +101,7 @@ Step round_step(const Move& move, const TextPosition& before, const Via& via, in
   if (move.angle_axis != 0 && place != Place::inside) round_angle(move, via, options, step);
   for (std::size_t axis = 0; axis < 3; ++axis) assign(step.after[axis], step.axes[axis].position_mm);
   step.after.cycle_initial_mm = cycle_initial_after(move, before);
+  if (move.orientation) round_orientation(move, via, step);
   if (motion < 2 || !move.arc) return step;
   if (via.centre_mm) {
     // If the start is unknown, the arc is not changed.
@@ -98,14 +110,15 @@ Step round_step(const Move& move, const TextPosition& before, const Via& via, in
     if (move.polar && place != Place::inside) round_polar(move, via, options, step);
     if (step.arc) return step;
     // The rest of the arc is shorter than its digits resolve: the next piece includes it.
-    if (place == Place::inside) step.after = before;
+    if (place == Place::inside) step.after = before, step.angles = {};
   }
   step.motion = 1;
   return step;
 }
 
 bool equals_text_position(const Step& step) {
-  return !step.arc && step.after == step.before;
+  const auto writes = [](const WordNumber& number) { return number.write; };
+  return !step.arc && step.after == step.before && std::ranges::none_of(step.angles, writes);
 }
 
 bool writes_words(const Step& step) {

@@ -16,6 +16,7 @@ struct Step {
   Place place = Place::end;
   int motion = 1;  ///< G0, G1, G2 or G3
   std::array<Coordinate, 3> axes;
+  std::array<WordNumber, 3> angles{};  ///< A, B, C of a move that turns the tool
   TextPosition before, after;
   std::optional<ArcWords> arc;
 };

@@ -13,6 +13,7 @@ namespace counterflex {
 namespace {
 
 constexpr int no_decimals = -1;
+constexpr int angle_decimals = 4;  // deg: half of the last digit is a 400th of the tolerance of tilt
 
 /// Digits of a word that has `shown` digits, or of an inserted word.
 int decimals_of_word(const Move& move, int shown, Place place, const WriteOptions& options) {
@@ -123,8 +124,23 @@ Coordinate round_axis(const Move& move, std::size_t axis, const TextPosition& be
   return c;
 }
 
+WordNumber round_angle(const Move& move, std::size_t i, const TextPosition& before, double wanted,
+                       Place place) {
+  const MoveOrientation& orientation = *move.orientation;
+  const PackedAxisWord& word = orientation.words[i];
+  if (word && place != Place::inside) {
+    const int decimals = std::max(angle_decimals, word->decimals);
+    if (rounds_to(orientation.end[i], wanted, decimals)) return {false, orientation.end[i], decimals};
+    return {true, rounded(wanted, decimals), decimals};
+  }
+  if (before.orientation && rounds_to((*before.orientation)[i], wanted, angle_decimals))
+    return {false, (*before.orientation)[i], angle_decimals};
+  return {true, rounded(wanted, angle_decimals), angle_decimals};
+}
+
 TextPosition known_text_position(const Move& move, const TextPosition& before) {
   TextPosition position;
+  position.orientation = before.orientation;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (move.known_start[axis]) assign(position[axis], before[axis]);
   assign(position.cycle_initial_mm, before.cycle_initial_mm);
@@ -158,12 +174,18 @@ TextPosition text_position_after_original(const Move& move, const TextPosition& 
       position[axis] = kept.position_mm;
     }
   }
+  if (move.orientation) {
+    if (!position.orientation) position.orientation = move.orientation->end;
+    for (std::size_t i = 0; i < 4; ++i)
+      if (move.orientation->words[i]) (*position.orientation)[i] = move.orientation->end[i];
+  }
   forget_skippable(move, start, position);
   return position;
 }
 
 void forget_skippable(const Move& move, const TextPosition& before, TextPosition& position) {
   if (!move.block_delete) return;
+  position.orientation.reset();
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (move.words[axis] || before[axis] != position[axis]) position[axis].reset();
 }

@@ -36,6 +36,10 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm);
 Coordinate round_axis(const Move& move, std::size_t axis, const TextPosition& before, double wanted_mm,
                       Place place, const WriteOptions& options);
 
+/// The angle `i` (deg) of a point of a move that turns the tool by A, B and C, for `wanted`.
+WordNumber round_angle(const Move& move, std::size_t i, const TextPosition& before, double wanted,
+                       Place place);
+
 /// `before` without the axes that are unknown at the start of `move`.
 TextPosition known_text_position(const Move& move, const TextPosition& before);
 
@@ -55,6 +59,7 @@ inline void assign(std::optional<double>& to, const std::optional<double>& from)
 inline void assign(TextPosition& to, const TextPosition& from) {
   for (std::size_t axis = 0; axis < 3; ++axis) assign(to[axis], from[axis]);
   assign(to.cycle_initial_mm, from.cycle_initial_mm);
+  if (to.orientation || from.orientation) to.orientation = from.orientation;
 }
 
 /// Component `axis` of `p`.

@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-constexpr std::string_view axis_letters = "XYZ", centre_letters = "IJK";
+constexpr std::string_view axis_letters = "XYZ", centre_letters = "IJK", angle_letters = "ABC";
 
 /// Characters that replace a span of the block.
 struct Change {
@@ -93,6 +93,24 @@ WordNumber shifted_height(const Move& move, std::size_t height, double shift_mm)
           decimals};
 }
 
+bool is_angle_or_centre(const Word& word) {
+  return is_angle(word) || is_centre(word);
+}
+
+/// A, B and C.
+void angle_changes(const Original& o, const Step& step, Changes& changes) {
+  std::vector<std::string> inserted;
+  for (std::size_t i = 0; i < step.angles.size(); ++i) {
+    if (!step.angles[i].write) continue;
+    if (const auto& word = o.move.orientation->words[i])
+      change_word(o, *word, step.angles[i], changes);
+    else
+      inserted.push_back(word_text(o, angle_letters[i], step.angles[i]));
+  }
+  insert_words(
+      o, inserted, [](const Word& word) { return is_axis(word) || is_angle(word); }, is_centre, changes);
+}
+
 void axis_changes(const Original& o, const Step& step, const BesidesPoint& besides, Changes& changes) {
   std::vector<std::string> inserted;
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -118,7 +136,7 @@ void axis_changes(const Original& o, const Step& step, const BesidesPoint& besid
     else if (besides.cycle.bottom.write)
       inserted.push_back(word_text(o, 'Z', besides.cycle.bottom));
   }
-  insert_words(o, inserted, is_axis, is_centre, changes);
+  insert_words(o, inserted, is_axis, o.move.orientation ? is_angle_or_centre : is_centre, changes);
 }
 
 void centre_changes(const Original& o, const ArcWords& arc, Changes& changes) {
@@ -163,8 +181,9 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
   const bool has_motion =
       std::any_of(words.begin(), words.end(), [&](auto& w) { return is_motion_word(w, o.dialect); });
   if (!state_motion || has_motion) return;
-  const auto first =
-      std::find_if(words.begin(), words.end(), [](auto& w) { return is_axis(w) || is_centre(w); });
+  const auto first = std::find_if(words.begin(), words.end(), [&](auto& w) {
+    return is_axis(w) || is_centre(w) || (o.move.orientation && is_angle(w));
+  });
   if (first == words.end()) return;
   changes.list.push_back({{first->span.begin, first->span.begin}, motion_text(o, motion) + o.separator});
   ++changes.inserted;
@@ -242,6 +261,7 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
   if (besides.number) block_number_changes(o, *besides.number, changes);
   motion_changes(o, step.motion, besides.state_motion, changes);
   axis_changes(o, step, besides, changes);
+  if (o.move.orientation) angle_changes(o, step, changes);
   if (step.arc) centre_changes(o, *step.arc, changes);
   if (o.move.arc) drop_arc_words(o, step, changes);
   if (besides.feed_per_min) feed_changes(o, *besides.feed_per_min, changes);
@@ -280,6 +300,10 @@ std::string inserted_block(const Original& o, const Step& step, const BesidesPoi
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (step.after[axis] && step.after[axis] != step.before[axis])
       append(o, point_text(o, axis, step.axes[axis].number), line);
+  for (std::size_t i = 0; i < step.angles.size(); ++i)
+    if (o.move.orientation &&
+        !(step.before.orientation && (*step.before.orientation)[i] == step.angles[i].value))
+      append(o, word_text(o, angle_letters[i], step.angles[i]), line);
   if (step.arc) append_centre(o, *step.arc, line);
   if (const Word* turns = turns_word(o); step.arc && step.place == Place::end && turns != nullptr)
     append(o, std::string(o.text(turns->span)), line);

@@ -109,7 +109,7 @@ TEST_CASE("the first piece of a split block has its N, so that a restart there r
   CHECK(with_last_move("G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X3. F9\n", edit, "siemens") ==
         "G71 G0 X0. Y0. Z0.\nN50 NEXT: G1 X1. Y0.250 F9\nG1 X3.000 Y0.000 F9\n");
   const std::string fed = std::string(start) + "F9.\n";
-  CHECK(with_last_move(fed + "N50 Z5.\n", {.jump_mm = Vector3(0, 1, 0), .end_mm = {0, 1, 5}}) ==
+  CHECK(with_last_move(fed + "N50 Z5.\n", {.jump = Via{Vector3(0, 1, 0)}, .end_mm = {0, 1, 5}}) ==
         fed + "N50 G1 Y1.000\nG0 Z5.\n");
 }
 
@@ -169,12 +169,12 @@ TEST_CASE("points that round to the point before them give no block") {
 
 TEST_CASE("a feed move before a rapid is a G1, and the rapid gets a G0") {
   const std::string text = std::string(start) + "G1 X1. F100\nG0\nZ5.\n";
-  const MoveEdit edit{.jump_mm = Vector3(1, 0.25, 0), .end_mm = {1, 0, 5}};
+  const MoveEdit edit{.jump = Via{Vector3(1, 0.25, 0)}, .end_mm = {1, 0, 5}};
   CHECK(with_last_move(text, edit) == std::string(start) + "G1 X1. F100\nG0\nG1 Y0.250\nG0 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nG00 Z5.\n", edit) ==
         std::string(start) + "G1 X1. F100\nG01 Y0.250\nG00 Z5. Y0.000\n");
   CHECK(with_last_move(std::string(start) + "G1 X1. F100\nX2.\n",
-                       {.jump_mm = Vector3(1, 0.25, 0), .end_mm = {2, 0.25, 0}}) ==
+                       {.jump = Via{Vector3(1, 0.25, 0)}, .end_mm = {2, 0.25, 0}}) ==
         std::string(start) + "G1 X1. F100\nY0.250\nX2.\n");
 }
 

@@ -336,7 +336,7 @@ struct KlartextStop {
 
 std::vector<KlartextStop> stops_of(const Move& move, const MoveEdit& edit) {
   std::vector<KlartextStop> stops;
-  if (edit.jump_mm) stops.push_back({{*edit.jump_mm, {}}, 1});
+  if (edit.jump) stops.push_back({*edit.jump, 1});
   for (const Via& via : edit.inserted) stops.push_back({via, motion_of(move)});
   stops.push_back({{edit.end_mm, edit.centre_mm}, motion_of(move)});
   return stops;

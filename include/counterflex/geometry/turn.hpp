@@ -1,0 +1,49 @@
+#pragma once
+/// Orientations of a tool: how programs write them, and how a control goes from one to the next.
+#include <array>
+#include <cstdint>
+#include <optional>
+
+#include "counterflex/geometry/pose.hpp"
+
+namespace counterflex {
+
+/// The numbers with which a program gives an orientation.
+enum class OrientationForm : std::uint8_t {
+  fixed_axes,       ///< degrees about X, Y, Z: R = Rz Ry Rx. A B C of LinuxCNC, W P R of FANUC, C B A of KUKA
+  quaternion,       ///< w x y z: ABB
+  rotation_vector,  ///< rad about X, Y, Z: Universal Robots
+};
+
+/// Numbers of an orientation, three or four (quaternion); the rest are 0.
+using OrientationNumbers = std::array<double, 4>;
+
+/// How many numbers the form has.
+std::size_t number_count(OrientationForm form);
+
+/// The rotation of the numbers. A quaternion is normalised.
+Matrix3 rotation_of(OrientationForm form, const OrientationNumbers& numbers);
+
+/// Numbers of the rotation `R`: of all that give it those nearest to `near`, so that a small rotation changes
+/// numbers little. At the poles of `fixed_axes` (90 degrees about Y) the angle about X is that of `near`.
+OrientationNumbers numbers_of(OrientationForm form, const Matrix3& R, const OrientationNumbers& near);
+
+/// How the orientation changes along a move.
+struct Turn {
+  Matrix3 start = Matrix3::Identity(), end = Matrix3::Identity();
+  /// A control that interpolates the angles of `fixed_axes` linearly, as LinuxCNC does: angles in degrees,
+  /// counted on beyond 360, in the frame `outer`. Else it turns about one axis, the shorter way.
+  struct Angles {
+    Matrix3 outer = Matrix3::Identity();
+    Vector3 start_deg = Vector3::Zero(), end_deg = Vector3::Zero();
+  };
+  std::optional<Angles> angles{};
+};
+
+/// The orientation at fraction `u` of the way; its start and end exactly at 0 and 1.
+Matrix3 orientation_at(const Turn& turn, double u);
+
+/// The turn in frame A of one given in frame B.
+Turn operator*(const Matrix3& R_AB, const Turn& turn);
+
+}  // namespace counterflex

@@ -1,0 +1,94 @@
+#include "counterflex/geometry/turn.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "counterflex/geometry/types.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+using Form = OrientationForm;
+
+double miss(const OrientationNumbers& a, const OrientationNumbers& b) {
+  double most = 0;
+  for (std::size_t i = 0; i < 4; ++i) most = std::max(most, std::abs(a[i] - b[i]));
+  return most;
+}
+
+// A small rotation that is not about an axis of the frame.
+Matrix3 small() {
+  return exp_so3({1e-5, -2e-5, 3e-5});
+}
+
+}  // namespace
+
+TEST_CASE("an orientation keeps its numbers, in every form and at every branch") {
+  const std::pair<Form, OrientationNumbers> cases[] = {
+      {Form::fixed_axes, {10, 20, 30}},
+      {Form::fixed_axes, {-170, 100, 359.999}},  // more than 90 degrees about Y
+      {Form::fixed_axes, {190, -20, -359.999}},
+      {Form::fixed_axes, {25, 90, 12}},   // gimbal: only 12 - 25 is determined
+      {Form::fixed_axes, {25, -90, 12}},  // and here 12 + 25
+      {Form::fixed_axes, {25, 450, 12}},
+      {Form::quaternion, {-0.5, 0.5, -0.5, 0.5}},
+      {Form::quaternion, {0, 1, 0, 0}},
+      {Form::quaternion, {0, -1, 0, 0}},
+      {Form::rotation_vector, {pi, 0, 0}},
+      {Form::rotation_vector, {-pi, 0, 0}},
+      {Form::rotation_vector, {2.2, -2.2, 1}},
+      {Form::rotation_vector, {0, 4, 0}},  // longer than pi
+      {Form::rotation_vector, {0, 0, 0}},
+      {Form::rotation_vector, {0, 2 * pi, 0}},
+  };
+  for (const auto& [form, numbers] : cases) {
+    CAPTURE(static_cast<int>(form));
+    CAPTURE(numbers[0]);
+    CAPTURE(numbers[1]);
+    CAPTURE(numbers[2]);
+    const Matrix3 R = rotation_of(form, numbers);
+    CHECK(miss(numbers_of(form, R, numbers), numbers) < 1e-9);
+  }
+}
+
+TEST_CASE("numbers of a rotation nearby are near, and give it") {
+  const std::pair<Form, OrientationNumbers> cases[] = {
+      {Form::fixed_axes, {10, 20, 359.9995}},      {Form::fixed_axes, {-170, 100, -180}},
+      {Form::quaternion, {1e-6, 0.6, 0.8, 0}},     {Form::quaternion, {-1e-6, -0.6, -0.8, 0}},
+      {Form::rotation_vector, {pi - 1e-6, 0, 0}},  {Form::rotation_vector, {0, -pi, 0}},
+      {Form::rotation_vector, {0, 2 * pi - 1, 0}},
+  };
+  for (const auto& [form, numbers] : cases) {
+    CAPTURE(static_cast<int>(form));
+    CAPTURE(numbers[0]);
+    CAPTURE(numbers[1]);
+    CAPTURE(numbers[2]);
+    const Matrix3 R = small() * rotation_of(form, numbers);
+    const OrientationNumbers found = numbers_of(form, R, numbers);
+    CHECK(miss(found, numbers) < (form == Form::fixed_axes ? 0.02 : 2e-4));
+    CHECK((rotation_of(form, found) - R).norm() < 1e-12);
+  }
+}
+
+TEST_CASE("the angles at a pole are those of a hand-computed pose") {
+  // At 90 degrees about Y, R = Rz(c) Ry(90) Rx(a) depends on a - c alone: Ry(90) Rx(a - c).
+  Matrix3 R;
+  R << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  CHECK(miss(numbers_of(Form::fixed_axes, R, {0, 90, 0}), {0, 90, 0}) < 1e-12);
+  CHECK(miss(numbers_of(Form::fixed_axes, R, {40, 89, 39}), {40, 90, 40}) < 1e-12);
+}
+
+TEST_CASE("angles that are interpolated go their own way, one rotation the shorter") {
+  const Matrix3 R_start = rotation_of(Form::fixed_axes, {0, 0, 359.999}),
+                R_end = rotation_of(Form::fixed_axes, {0, 0, 0.001});
+  const Turn one{R_start, R_end, {}};
+  const Turn angles{R_start, R_end, Turn::Angles{Matrix3::Identity(), {0, 0, 359.999}, {0, 0, 0.001}}};
+  CHECK((orientation_at(one, 0.5) - Matrix3::Identity()).norm() < 1e-12);
+  CHECK((orientation_at(angles, 0.5) - from_rpy({0, 0, pi})).norm() < 1e-12);
+  CHECK(orientation_at(angles, 1) == R_end);
+  const Matrix3 frame = exp_so3({0.3, 0.2, 0.1});
+  CHECK((orientation_at(frame * angles, 0.3) - frame * orientation_at(angles, 0.3)).norm() < 1e-14);
+  CHECK((orientation_at(frame * one, 0.3) - frame * orientation_at(one, 0.3)).norm() < 1e-14);
+}

@@ -1,0 +1,101 @@
+// G-code of six-axis machines: A, B and C are the orientation of the tool.
+#include <doctest/doctest.h>
+
+#include "counterflex/program/rewrite.hpp"
+#include "program/reading.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+constexpr char text[] =
+    "G21 G90 G0 X0. Y0. Z0. A0. B0. C350.\n"
+    "G1 X10. C370. F600\n"
+    "Y5.\n"
+    "A-1.5 (turns in place)\n"
+    "X20. B2\n";
+
+Program read_turning(const std::string& program) {
+  return read_program(program, "six.ngc", {.dialect = "linuxcnc", .tool_orientation = true});
+}
+
+MoveEdit edit_of(const Program& program, std::size_t move) {
+  const Move& m = program.moves[move];
+  return {.move = move, .end_mm = m.end_mm, .orientation = m.orientation->end};
+}
+
+}  // namespace
+
+TEST_CASE("A, B and C of a six-axis machine are read as the tool's orientation") {
+  const Program program = read_turning(text);
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.left_alone.empty());
+  CHECK(!all_known(program.moves[0].known_start));
+  CHECK(all_known(program.moves[0].known_end));
+  CHECK(all_known(program.moves[1].known_start));
+  CHECK(program.moves[1].orientation->start == OrientationNumbers{0, 0, 350});
+  CHECK(program.moves[1].orientation->end == OrientationNumbers{0, 0, 370});
+  CHECK(program.moves[2].orientation->end == OrientationNumbers{0, 0, 370});
+  CHECK(program.moves[3].start_mm == program.moves[3].end_mm);
+  CHECK(program.moves[4].orientation->start == OrientationNumbers{-1.5, 0, 370});
+  CHECK(program.moves[4].orientation->end == OrientationNumbers{-1.5, 2, 370});
+  CHECK(numbers_at(*program.moves[1].orientation, 0.25) == OrientationNumbers{0, 0, 355});
+}
+
+TEST_CASE("without all three angles no position is known, and G91 loses them") {
+  const Program part = read_turning("G21 G90 G0 X0 Y0 Z0 A0\nG1 X5 F100\n");
+  CHECK(!all_known(part.moves[0].known_end));
+  CHECK(!all_known(part.moves[1].known_end));
+  REQUIRE(part.left_alone.size() == 1);
+  const Program relative = read_turning("G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nG91 G1 X5 A1 F100\nG90 X7\n");
+  CHECK(all_known(relative.moves[0].known_end));
+  CHECK(!all_known(relative.moves[1].known_end));
+  CHECK(!all_known(relative.moves[2].known_end));
+}
+
+TEST_CASE("cycles and cutter compensation are refused in a program that turns the tool") {
+  CHECK_THROWS_AS(read_turning("G21 G90 G0 X0 Y0 Z9 A0 B0 C0\nG81 X5 Z-3 R1 F100\n"), InputError);
+  CHECK_THROWS_AS(read_turning("G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nG41 D1 G1 X5 F100\n"), InputError);
+}
+
+TEST_CASE("on other machines a word of A, B or C that is not zero ends correction") {
+  const Program program = read_program(text, "six.ngc", {.dialect = "linuxcnc"});
+  CHECK(program.left_alone.size() == 1);
+  CHECK(!program.moves[1].orientation);
+}
+
+TEST_CASE("an orientation that does not change leaves every byte") {
+  const Program program = read_turning(text);
+  std::vector<MoveEdit> edits;
+  for (std::size_t m = 0; m < program.moves.size(); ++m) edits.push_back(edit_of(program, m));
+  CHECK(rewrite(program, edits, {}).text == text);
+}
+
+TEST_CASE("angles are changed, inserted where the block has none, and kept where they are right") {
+  const Program program = read_turning(text);
+  MoveEdit first = edit_of(program, 1), second = edit_of(program, 2), third = edit_of(program, 3);
+  const MoveEdit last = edit_of(program, 4);
+  first.orientation = OrientationNumbers{0.0123, 0, 370.00004};
+  second.orientation = OrientationNumbers{0.0123, 0, 370};
+  third.orientation = OrientationNumbers{-1.4999, 0.00004, 369.9};
+  CHECK(rewrite(program, {first, second, third, last}, {}).text ==
+        "G21 G90 G0 X0. Y0. Z0. A0. B0. C350.\n"
+        "G1 X10. C370. A0.0123 F600\n"
+        "Y5.\n"
+        "A-1.4999 C369.9000 (turns in place)\n"
+        "X20. B2 A-1.5000 C370.0000\n");
+}
+
+TEST_CASE("points inserted into a move carry their angles") {
+  const Program program = read_turning(text);
+  MoveEdit edit = edit_of(program, 1);
+  edit.inserted = {{{5, 0.01, 0}, {}, OrientationNumbers{0, 0, 360.01}}};
+  CHECK(rewrite(program, {edit}, {}).text ==
+        "G21 G90 G0 X0. Y0. Z0. A0. B0. C350.\n"
+        "G1 X5.000 Y0.010 C360.0100 F600\n"
+        "G1 X10. Y0.000 C370. F600\n"
+        "Y5.\n"
+        "A-1.5 (turns in place)\n"
+        "X20. B2\n");
+}
