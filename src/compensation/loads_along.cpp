@@ -97,13 +97,17 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
     PlaceSolver solver(starts, places[begin].load.at_platform);
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count))
-      requests.push_back({place.model, place.target, place.load.F});
+      requests.push_back({.model = place.model,
+                          .target = place.target,
+                          .F = place.load.F,
+                          .R = commanded_orientation(place.at)});
     std::vector<ForwardAnswer> answers(count);
     solver.forwards(requests, answers, StopAt::end);
     for (std::size_t i = 0; i < count; ++i) {
       if (answers[i].status != Status::converged) continue;
       const LoadPlace& place = places[begin + i];
-      const NominalResult commanded = solver.nominal(*place.model, place.target, answers[i].rho);
+      const NominalResult commanded =
+          solver.nominal({place.model, place.target, requests[i].R}, answers[i].rho);
       if (commanded.status != Status::converged) continue;
       StaticsWork work(place.model->mechanism);
       const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
@@ -121,12 +125,16 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
 
 std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts) {
   PlaceSolver solver(starts, place.load.at_platform);
-  std::array<TipPosition, 1> position{{{place.model, place.at.p_MT}}};
+  std::array<TipPosition, 1> position{wanted_at(*place.model, place.at)};
   std::array<WantedPose, 1> wanted;
   solver.wanted(position, wanted);
   if (wanted[0].status != Status::converged) return std::nullopt;
   const Vector3 original = place.target - place.at.correction.head<3>();
-  std::array<ForwardPlace, 1> solved{{{place.model, original, place.target, place.load.F, wanted[0].X_MT}}};
+  std::array<ForwardPlace, 1> solved{{{place.model,
+                                       {original, position[0].R_MT},
+                                       {place.target, commanded_orientation(place.at)},
+                                       place.load.F,
+                                       wanted[0].X_MT}}};
   std::array<Waypoint, 1> at{place.at};
   add_causes(solver, solved, at);
   return at[0].status == Status::converged ? std::optional(*at[0].causes) : std::nullopt;
@@ -140,8 +148,11 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
     std::vector<TipPosition> positions;
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count)) {
-      positions.push_back({place.model, place.at.p_MT});
-      requests.push_back({place.model, place.target, factor * place.load.F});
+      positions.push_back(wanted_at(*place.model, place.at));
+      requests.push_back({.model = place.model,
+                          .target = place.target,
+                          .F = factor * place.load.F,
+                          .R = commanded_orientation(place.at)});
     }
     std::vector<WantedPose> wanted(count);
     std::vector<ForwardAnswer> answers(count);

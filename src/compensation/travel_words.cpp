@@ -42,7 +42,7 @@ std::string parts_of(const Travel& axis, const CommandedPlace& at, double value,
 
 std::string outside_travel_words(const Mechanism& named, const CommandedPlace& at) {
   const Mechanism& mechanism = at.model.mechanism;
-  const Pose X_MT{tip(mechanism, at.model.home).R, at.target};
+  const Pose X_MT{at.R.value_or(tip(mechanism, at.model.home).R), at.target};
   const NominalResult there = follow(at.model, at.model.home, X_MT);
   if (there.status != Status::converged) return "an actuator leaves its travel (outside_travel)";
   const Eigen::VectorXd rho = actuator_values(mechanism, there.configuration);

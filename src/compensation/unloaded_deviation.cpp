@@ -21,7 +21,9 @@ void PathPlaces::add(const Move& move, const ProgramFrame& frame, OfOffset& of) 
   for (double next = of.spacing_mm * static_cast<double>(of.places.size()); next <= of.way_mm + way;
        next = of.spacing_mm * static_cast<double>(of.places.size())) {
     if (of.places.size() < most) {
-      of.places.push_back({point_at(curve, (next - of.way_mm) / way), move.tool});
+      const double u = (next - of.way_mm) / way;
+      PathPlace& place = of.places.emplace_back(PathPlace{point_at(curve, u), move.tool});
+      if (move.orientation) place.R = in_offset(frame).R * orientation_at(turn_of(*move.orientation), u);
       continue;
     }
     for (std::size_t k = 0; k < most / 2; ++k) of.places[k] = of.places[2 * k];
@@ -36,13 +38,12 @@ std::span<const PathPlace> PathPlaces::of(const std::string& offset) const {
   return found == offsets_.end() ? std::span<const PathPlace>{} : std::span(found->second.places);
 }
 
-UnloadedDeviation unloaded_deviation(const Model& model, const Vector3& p_MT, const StartTables* starts) {
+UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts) {
   PlaceSolver solver(starts, false);
-  const TipPosition place{&model, p_MT};
-  const ForwardRequest request{&model, p_MT};
+  const ForwardRequest request{.model = at.model, .target = at.p_MT, .R = at.R_MT};
   WantedPose wanted;
   ForwardAnswer actual;
-  solver.wanted({&place, 1}, {&wanted, 1});
+  solver.wanted({&at, 1}, {&wanted, 1});
   if (wanted.status == Status::converged) solver.forwards({&request, 1}, {&actual, 1});
   const Status status = wanted.status == Status::converged ? actual.status : wanted.status;
   if (status != Status::converged) return {status};
@@ -54,8 +55,9 @@ std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools,
   Vector3 sum = Vector3::Zero();
   int solved = 0;
   for (const PathPlace& place : places) {
-    const UnloadedDeviation here =
-        unloaded_deviation(model_with(model, &tools, place.tool), X_MW * Vector3(place.p_mm * mm), starts);
+    const std::optional<Matrix3> R_MT = place.R ? std::optional<Matrix3>(X_MW.R * *place.R) : std::nullopt;
+    const UnloadedDeviation here = unloaded_deviation(
+        {&model_with(model, &tools, place.tool), X_MW * Vector3(place.p_mm * mm), R_MT}, starts);
     if (here.status != Status::converged) break;  // a run ends there, too; each further place takes long
     sum += here.d;
     ++solved;

@@ -111,6 +111,20 @@ Matrix3 orientation_at(const Turn& turn, double u) {
   return exp_so3(u * rotation_between(turn.end, turn.start)) * turn.start;
 }
 
+Turn stretch(const Turn& turn, double u0, double u1) {
+  Turn part{orientation_at(turn, u0), orientation_at(turn, u1), turn.angles};
+  if (!turn.angles) return part;
+  const Vector3 way_deg = turn.angles->end_deg - turn.angles->start_deg;
+  part.angles->start_deg += u0 * way_deg;
+  part.angles->end_deg = turn.angles->start_deg + u1 * way_deg;
+  return part;
+}
+
+double angle_of(const Turn& turn) {
+  if (turn.angles) return (turn.angles->end_deg - turn.angles->start_deg).lpNorm<1>() * deg;
+  return rotation_between(turn.end, turn.start).norm();
+}
+
 Turn operator*(const Matrix3& R_AB, const Turn& turn) {
   Turn turned{R_AB * turn.start, R_AB * turn.end, turn.angles};
   if (turned.angles) turned.angles->outer = R_AB * turned.angles->outer;

@@ -36,6 +36,7 @@ void add_move(Overview& overview, const Move& move) {
   if (move.motion == Motion::feed && move.tool == 0 && !overview.first_feed_without_tool)
     overview.first_feed_without_tool = move.line;
   if (move.cycle && !overview.first_cycle_line) overview.first_cycle_line = move.line;
+  overview.turns_tool = overview.turns_tool || move.orientation;
   if (!move.force) return;
   if (!overview.first_force_line) overview.first_force_line = move.line;
   overview.commented_force = overview.commented_force || !move.force->isZero(0);

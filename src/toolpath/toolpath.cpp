@@ -23,6 +23,7 @@ void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& seg
   segment.line = move.line;
   segment.cutting = move.motion == Motion::feed;
   segment.frame = move.frame;
+  if (move.orientation) segment.turn = X_MW.R * turn_of(*move.orientation);
   if (move.arc) {
     segment.wanted = X_MW * scaled(curve_of(move), mm);
     return;
@@ -38,7 +39,8 @@ double feed_m_s(const Move& move, double way) {
 
 bool gives_segment(const Move& move) {
   return all_known(move.known_start) && all_known(move.known_end) &&
-         (move.start_mm != move.end_mm || move.arc);
+         (move.start_mm != move.end_mm || move.arc ||
+          (move.orientation && move.orientation->start != move.orientation->end));
 }
 
 /// Advances path length and time for feed moves. Rapids do not count; time does not advance without a
@@ -72,6 +74,15 @@ void ignore_axis(Program& program, std::size_t axis) {
 
 std::vector<WorkFrame> one_frame(const Program& program, const WorkFrame& frame) {
   return std::vector<WorkFrame>(program.frames.size(), frame);
+}
+
+std::optional<Matrix3> orientation_at(const Segment& segment, double u) {
+  if (!segment.turn) return std::nullopt;
+  return orientation_at(*segment.turn, u);
+}
+
+double turn_of(const Segment& segment) {
+  return segment.turn ? angle_of(*segment.turn) : 0;
 }
 
 Pose wanted_frame(const WorkFrame& frame) {

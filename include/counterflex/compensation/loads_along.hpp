@@ -98,6 +98,7 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
 struct PathPlace {
   Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset
   long tool = 0;                   ///< in the spindle
+  std::optional<Matrix3> R{};      ///< orientation there, where the program gives one
 };
 
 /// Places on the feed moves of a program, for each work offset at equal distances along its moves: at most
@@ -130,9 +131,8 @@ struct UnloadedDeviation {
   Vector3 d = Vector3::Zero();
 };
 
-/// At `p_MT` (M, m). `starts`: as for a job.
-UnloadedDeviation unloaded_deviation(const Model& model, const Vector3& p_MT,
-                                     const StartTables* starts = nullptr);
+/// `starts`: as for a job.
+UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts = nullptr);
 
 /// The mean over `places` of the offset at `X_MW`: the common shift of a path that the errors and the weights
 /// of the machine cause. Up to the first place that the machine does not reach; nothing if it does not reach
@@ -144,10 +144,11 @@ std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools,
 
 /// A position that is commanded, and what puts it there. Borrowed: everything outlives it.
 struct CommandedPlace {
-  const Model& model;      ///< with the tool in the spindle
-  const WorkFrame& frame;  ///< of the move
-  long tool = 0;           ///< its number; 0: none known
-  Vector3 target;          ///< in M (m)
+  const Model& model;          ///< with the tool in the spindle
+  const WorkFrame& frame;      ///< of the move
+  long tool = 0;               ///< its number; 0: none known
+  Vector3 target;              ///< in M (m)
+  std::optional<Matrix3> R{};  ///< its orientation, where the program gives one
 };
 
 /// "axis Z: 138.0 mm is outside its travel (-300 to 0 mm): ...", with the parts that make up the value where

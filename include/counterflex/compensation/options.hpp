@@ -25,16 +25,25 @@ std::string_view to_string(Method method);
 struct CompensationOptions {
   Method method = Method::direct;
   double tolerance = 5e-6;  ///< m: norm of the tip's controlled position error at equal fraction of a segment
-  double max_correction = 1e-3;  ///< m
-  double blend = 2e-3;           ///< m: 0 makes steps of the force jumps of the correction, at rapids too
+  double tilt_tolerance = 0.02 * deg;      ///< rad: of the tool's axis, where the program turns the tool
+  std::optional<double> spin_tolerance{};  ///< rad: about the tool's axis; a cutter does not see it
+  double max_correction = 1e-3;            ///< m
+  double max_turn = 1 * deg;               ///< rad: of a correction of the orientation
+  double blend = 2e-3;  ///< m: 0 makes steps of the force jumps of the correction, at rapids too
   int threads = 1;
   WriteOptions write;
 };
 
-/// A position of the nominal tip (M, m) on a machine.
+/// Where a turn counts as much as a shift (m/rad): one of the tolerance of tilt as one of the tolerance.
+inline double lever(const CompensationOptions& options) {
+  return options.tolerance / options.tilt_tolerance;
+}
+
+/// A position of the nominal tip (M, m) on a machine, and its orientation where the program gives one.
 struct TipPosition {
   const Model* model = nullptr;
   Vector3 p_MT = Vector3::Zero();
+  std::optional<Matrix3> R_MT{};
 };
 
 /// One program on one machine. Borrowed: everything outlives the job.
@@ -84,7 +93,9 @@ struct Piece {
   double u0 = 0, u1 = 1;
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve commanded;
-  Vector3 wanted = Vector3::Zero();  ///< wanted position where there is no segment, M (m)
+  BoxedOptional<Turn> turn{};         ///< commanded, where the program gives orientations
+  Vector3 wanted = Vector3::Zero();   ///< wanted position where there is no segment, M (m)
+  BoxedOptional<Matrix3> R_wanted{};  ///< wanted orientation there, where the program gives one
   bool end_only = false;
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
   bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
@@ -109,6 +120,7 @@ struct Waypoint {
   bool between = false;  ///< a sample inside a piece
   bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
   bool exempt = false;
+  BoxedOptional<Matrix3> R_MT;           ///< wanted orientation, where the program gives one
   double weight = 0;                     ///< of the cutting length: the way from the waypoint before (m)
   double s = 0;                          ///< cutting path length (m)
   Vector3 p_MT = Vector3::Zero();        ///< wanted tip
@@ -133,6 +145,17 @@ inline bool knows_before(const Waypoint& w) {
 /// Whether it is the start of a feed run, under the force that acts there.
 inline bool begins_feed_run(const Waypoint& w) {
   return w.place && w.between && w.fraction == 0;
+}
+
+/// The wanted place of a waypoint on its machine.
+inline TipPosition wanted_at(const Model& model, const Waypoint& w) {
+  return {&model, w.p_MT, w.R_MT ? std::optional(*w.R_MT) : std::nullopt};
+}
+
+/// The commanded orientation, where the program gives one.
+inline std::optional<Matrix3> commanded_orientation(const Waypoint& w) {
+  if (!w.R_MT) return std::nullopt;
+  return Matrix3(exp_so3(w.correction.tail<3>()) * *w.R_MT);
 }
 
 /// What is solved besides `after`.

@@ -18,8 +18,8 @@ struct OtherMoves {
   std::size_t left = 0;     ///< they are not changed
 };
 
-/// What comes of a window. A failure has exit status, line and what happened: not solved or not within
-/// tolerance 5, travel or correction limit 6, too few decimals 2.
+/// What comes of a window. The kind of a failure is `not_compensated` (not solved, or not within the
+/// tolerance), `limit` (travel or correction) or `usage` (too few decimals).
 struct Compensation {
   std::optional<Failure> failure;   ///< then `text` must not be written
   std::string text;                 ///< the corrected program

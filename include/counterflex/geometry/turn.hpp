@@ -28,6 +28,11 @@ Matrix3 rotation_of(OrientationForm form, const OrientationNumbers& numbers);
 /// numbers little. At the poles of `fixed_axes` (90 degrees about Y) the angle about X is that of `near`.
 OrientationNumbers numbers_of(OrientationForm form, const Matrix3& R, const OrientationNumbers& near);
 
+/// The part of a rotation vector (rad) that tilts `axis`, a unit vector; the rest turns about it.
+inline Vector3 tilt(const Vector3& turn, const Vector3& axis) {
+  return turn - turn.dot(axis) * axis;
+}
+
 /// How the orientation changes along a move.
 struct Turn {
   Matrix3 start = Matrix3::Identity(), end = Matrix3::Identity();
@@ -42,6 +47,12 @@ struct Turn {
 
 /// The orientation at fraction `u` of the way; its start and end exactly at 0 and 1.
 Matrix3 orientation_at(const Turn& turn, double u);
+
+/// The turn between fractions `u0` < `u1`.
+Turn stretch(const Turn& turn, double u0, double u1);
+
+/// By how much it turns (rad); the sum of the angles where they are interpolated, which is not less.
+double angle_of(const Turn& turn);
 
 /// The turn in frame A of one given in frame B.
 Turn operator*(const Matrix3& R_AB, const Turn& turn);

@@ -1,6 +1,7 @@
 #pragma once
 /// Waypoints solved by the kernel, many at once. Each answer depends on the model and its own request alone:
 /// not on other requests, their order, the thread or the number of lanes. EQUATIONS.md, section 11.
+#include <concepts>
 #include <memory>
 #include <span>
 
@@ -8,27 +9,34 @@
 
 namespace counterflex {
 
-/// A position of the tip (M, m), the wrench there (N, N m; axes of M), and the rotation vector of the
-/// commanded orientation against home's (rad, axes of M). Machines that control no orientation ignore the
-/// last one.
-struct BatchRequest {
-  Vector3 p = Vector3::Zero();
-  Vector6 F = Vector6::Zero();
-  Vector3 turn = Vector3::Zero();
+/// A position (M, m), and the rotation vector of an orientation against home's (rad, axes of M). Machines
+/// that control no orientation ignore the second one.
+struct TurnedPlace {
+  Vector3 p, turn;
+
+  template <std::convertible_to<Vector3> Position>
+  TurnedPlace(const Position& at, const Vector3& turned = Vector3::Zero()) : p(at), turn(turned) {}
 };
 
-/// Forward: where the tip is when `p` is commanded. Target: what has to be commanded for the tip to be at
-/// `p`. Orientations that the machine controls are commanded.
-enum class BatchQuestion { forward, target };
+/// A place of the tip, and the wrench there (N, N m; axes of M).
+struct BatchRequest {
+  TurnedPlace at;
+  Vector6 F = Vector6::Zero();
+};
+
+/// Forward: where the tip is when the place is commanded. Target: what has to be commanded for the tip to be
+/// at its position; orientations that the machine controls are commanded. Pose: the same for the tip to have
+/// its orientation, too.
+enum class BatchQuestion { forward, target, pose };
 
 /// If `solved` is true, `solve_forward` and `solve_target` would converge to the same equilibrium, and the
 /// actuators are in their ranges. If it is false, ask them: the rest means nothing.
 struct BatchAnswer {
   bool solved = false;
-  Vector3 command = Vector3::Zero();  ///< commanded position of the nominal tip, M (m)
-  Pose X_MT;                          ///< of the real tip
-  Eigen::VectorXd rho;                ///< forward: actuators of the command (m, rad)
-  int iterations = 0;                 ///< Newton steps
+  Pose command;         ///< commanded pose of the nominal tip; its position where the question is forward
+  Pose X_MT;            ///< of the real tip
+  Eigen::VectorXd rho;  ///< forward: actuators of the command (m, rad)
+  int iterations = 0;   ///< Newton steps
 };
 
 /// The pose of the nominal tip at a position.
@@ -98,20 +106,20 @@ class BatchSolver {
   void solve(BatchQuestion question, const Stage& stage, std::span<const BatchRequest> requests,
              std::span<BatchAnswer> answers);
 
-  /// `answers` is as long as `p` (M, m).
-  void nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers);
+  /// `answers` is as long as `places`.
+  void nominal_tips(std::span<const TurnedPlace> places, std::span<NominalAnswer> answers);
 
   /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured
   /// remainder. EQUATIONS.md, section 11.
   LineBend bend_along(const BatchLine& line);
 
-  /// The nominal configuration at the centre of the cell that holds `p` (M, m); null if no cell can be made.
+  /// The nominal configuration at the centre of the cell that holds the place; null if no cell can be made.
   /// It is valid until the next call.
-  const Configuration* nominal_near(const Vector3& p);
+  const Configuration* nominal_near(const TurnedPlace& place);
 
-  /// Whether the straight way between two positions (M, m) stays on one branch of the nominal kinematics.
-  /// False also where one of them has no cell.
-  bool joins(const Vector3& from, const Vector3& to);
+  /// Whether the straight way between two places stays on one branch of the nominal kinematics. False also
+  /// where one of them has no cell.
+  bool joins(const TurnedPlace& from, const TurnedPlace& to);
 
  private:
   struct Impl;

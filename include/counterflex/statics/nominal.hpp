@@ -115,8 +115,9 @@ class NominalToolPath {
  public:
   explicit NominalToolPath(const NominalPlace& start);
 
-  /// Moves the tip of `model` to `p_MT` (m, in M); `model` outlives the path. As `NominalPath::go_to`.
-  Status go_to(const Model& model, const Vector3& p_MT);
+  /// Moves the tip of `model` to `p_MT` (m, in M), in the orientation `R_MT` or else home's; `model` outlives
+  /// the path. As `NominalPath::go_to`.
+  Status go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT = {});
 
   const Configuration& configuration() const { return path_->configuration(); }
   NominalPlace place() const { return {model_, configuration()}; }

@@ -32,16 +32,23 @@ Pose wanted_frame(const WorkFrame& frame);
 struct Segment {
   std::size_t move = 0;  ///< index into Program::moves
   int line = 0;
-  bool cutting = false;   ///< a feed move (G1, G2, G3)
-  std::size_t frame = 0;  ///< index into Toolpath::frames
-  Curve wanted;           ///< of the tip, in M
-  double feed_m_s = 0;    ///< programmed feed, under G93 that of this move; 0 where no feed is programmed
-  double s_start = 0;     ///< cutting path length at the start, from the program's start: feed moves only (m)
+  bool cutting = false;        ///< a feed move (G1, G2, G3)
+  std::size_t frame = 0;       ///< index into Toolpath::frames
+  Curve wanted;                ///< of the tip, in M
+  BoxedOptional<Turn> turn{};  ///< its orientation in M, where the program gives one
+  double feed_m_s = 0;  ///< programmed feed, under G93 that of this move; 0 where no feed is programmed
+  double s_start = 0;   ///< cutting path length at the start, from the program's start: feed moves only (m)
   double s_end = 0;
   /// Time at the start at programmed feeds, feed moves only; does not advance without a feed (s).
   double t_start = 0;
   double t_end = 0;
 };
+
+/// The wanted orientation at fraction `u`, where the program gives one.
+std::optional<Matrix3> orientation_at(const Segment& segment, double u);
+
+/// By how much the tool turns along the segment (rad).
+double turn_of(const Segment& segment);
 
 /// How far the path of a program has come where a window of it ends.
 struct PathEnd {
@@ -79,8 +86,8 @@ Extent extent_of(const Move& move);
 std::vector<Vector3> points_along(const Curve& curve);
 
 /// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an
-/// axis that is not known at start and end give no segment; a move of no length gives none either. `start`:
-/// of a window, where the path of the one before it ended.
+/// axis that is not known at start and end give no segment; a move that neither goes nor turns gives none
+/// either. `start`: of a window, where the path of the one before it ended.
 Toolpath build_toolpath(const Program& program, const std::vector<WorkFrame>& frames,
                         const PathEnd& start = {});
 

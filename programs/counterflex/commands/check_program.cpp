@@ -161,7 +161,7 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
 /// Why the nominal machine cannot reach a place in a move of `line`. `base`: the machine without a tool.
 std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
                              const Program& window, int line) {
-  const Status status = nominal.go_to(at.model, at.target);
+  const Status status = nominal.go_to(at.model, at.target, at.R);
   if (status != Status::converged)
     return Failure{ErrorKind::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
@@ -182,9 +182,11 @@ std::optional<Failure> first_unreached(const Model& base, const ToolModels& tool
     for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
       const long tool = reader.window().moves[segment.move].tool;
       const Model& model = model_with(base, &tools, tool);
-      const std::vector<Vector3> points = points_along(segment.wanted);
-      for (std::size_t i = 1; i < points.size(); ++i) {
-        const CommandedPlace at{model, frames[segment.frame], tool, points[i]};
+      const std::size_t parts = points_along(segment.wanted).size() - 1;
+      for (std::size_t i = 1; i <= parts; ++i) {
+        const double u = static_cast<double>(i) / static_cast<double>(parts);
+        const CommandedPlace at{model, frames[segment.frame], tool, point_at(segment.wanted, u),
+                                orientation_at(segment, u)};
         if (const auto failure = go_to(nominal, base, at, reader.window(), segment.line)) return failure;
         travel.add(model.mechanism, actuator_values(model.mechanism, nominal.configuration()), segment.line);
       }

@@ -57,6 +57,11 @@ RunFacts facts_of(const Options& options, const Run& run) {
                    {"max-correction-mm", in_mm(run.options.max_correction)},
                    {"load-scale", options.load_scale},
                    {"blend-mm", in_mm(options.blend)}};
+  if (run.program.turns_tool) {
+    facts.options.push_back({"tolerance-tilt-deg", run.options.tilt_tolerance / deg});
+    if (const auto& spin = run.options.spin_tolerance)
+      facts.options.push_back({"tolerance-spin-deg", *spin / deg});
+  }
   for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", force_rule_text(rule)});
   if (options.number_pieces) facts.options.push_back({"number-pieces", true});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});

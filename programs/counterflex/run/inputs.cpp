@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <set>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -123,6 +124,14 @@ void take_lengths(const ToolLengths& lengths, Machine& machine) {
   }
 }
 
+namespace {
+
+bool controls_pose(const Machine& machine) {
+  return std::set<Component>(machine.controlled.begin(), machine.controlled.end()).size() == 6;
+}
+
+}  // namespace
+
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {
   ReadOptions read;
   if (machine != nullptr) read.dialect = machine->control.dialect;
@@ -131,6 +140,7 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   read.integer_words = options.integer_words;
   read.absolute_centres =
       options.absolute_centres.value_or(machine != nullptr && machine->control.absolute_centres);
+  read.tool_orientation = machine != nullptr && controls_pose(*machine);
   read.evaluate = options.evaluate;
   read.expand_subprograms = options.expand_subprograms;
   read.tool_lengths_mm = tools.mm;

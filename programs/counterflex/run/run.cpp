@@ -45,8 +45,8 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
 /// Warns of orientations that the machine controls but a program of X, Y and Z does not state.
 void warn_of_orientation(Run& run) {
   const Machine& machine = run.machine.machine;
-  if (std::none_of(machine.controlled.begin(), machine.controlled.end(),
-                   [](Component c) { return c > Component::z; }))
+  if (run.program.turns_tool || std::none_of(machine.controlled.begin(), machine.controlled.end(),
+                                             [](Component c) { return c > Component::z; }))
     return;
   run.facts.warnings.push_back(
       {0,
@@ -58,6 +58,8 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   CompensationOptions result;
   result.method = options.method;
   result.tolerance = options.tolerance;
+  result.tilt_tolerance = options.tilt_tolerance;
+  result.spin_tolerance = options.spin_tolerance;
   result.max_correction = options.max_correction.value_or(machine.max_correction);
   result.blend = options.blend;
   result.threads = options.threads;

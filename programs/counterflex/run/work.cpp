@@ -34,7 +34,7 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
             "machine does not reach: {}",
             offset, p_MT.x() / mm, p_MT.y() / mm, p_MT.z() / mm, to_string(status)));
   };
-  const UnloadedDeviation touched = unloaded_deviation(model, p_MT);
+  const UnloadedDeviation touched = unloaded_deviation({&model, p_MT});
   if (touched.status != Status::converged) fail(touched.status);
   return touched.d;
 }

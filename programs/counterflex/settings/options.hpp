@@ -93,6 +93,8 @@ struct Options {
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m
+  double tilt_tolerance = 0.02 * deg;    ///< rad
+  std::optional<double> spin_tolerance;  ///< rad; unset: any
   std::optional<double> max_correction;  ///< m; unset: that of the machine file
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: as in each word

@@ -143,6 +143,19 @@ const std::array option_table{
                   [](Text name, Text text, Options& options) {
                     options.tolerance = number_of(name, text, {0, true}) * mm;
                   }},
+    SettingOption{
+        "tolerance-tilt-deg", "--tolerance-tilt-deg", "ANGLE", group::correction,
+        "Of a program that turns the tool: the largest tilt of its axis that may remain, in degrees "
+        "(default 0.02)",
+        "0.02", false,
+        [](Text name, Text text, Options& options) {
+          options.tilt_tolerance = number_of(name, text, {0, true}) * deg;
+        }},
+    SettingOption{"tolerance-spin-deg", "--tolerance-spin-deg", "ANGLE", group::correction,
+                  "The same about the tool's axis (default: any, a cutter does not see it)", "", false,
+                  [](Text name, Text text, Options& options) {
+                    options.spin_tolerance = number_of(name, text, {0, true}) * deg;
+                  }},
     SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH", group::common,
                   "The largest correction that is accepted, in mm (default: of the machine file, or 1)", "",
                   false,

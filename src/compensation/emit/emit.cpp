@@ -67,11 +67,15 @@ Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
 
 }  // namespace
 
+Via Emitter::via_of(const Move& move, const Command& command, double u) const {
+  return {in_words_mm(job_, move, command.target), {}, turned_words(job_, move, u, command.turn)};
+}
+
 // Whether the correction steps at the start; a feed move performs the step where one may be inserted.
 bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
                        double& jump) {
   const Move& move = job_.program.moves[segment.move];
-  const Vector3 start = planned.start_target - segment.wanted.start;
+  const Vector3 start = planned.start.target - segment.wanted.start;
   Vector3 step = start - state_.correction;
   // The pieces of such an arc choose their heights themselves; where one has left the tool a rapid may begin.
   const Move* last = move_before(job_.program, segment.move);
@@ -79,17 +83,18 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
     step = without_height(frame(move), move.arc->normal, step);
   else if (!segment.cutting && last != nullptr && stays_flat(*last))
     step = without_height(frame(move), last->arc->normal, step);
-  jump = planned.starts_anywhere || !state_.correction_known ? 0 : step.norm();
+  const double turned = lever(job_.options) * (planned.start.turn - state_.turn).norm();
+  jump = planned.starts_anywhere || !state_.correction_known ? 0 : std::hypot(step.norm(), turned);
   const bool jumps = jump > small_share * job_.options.tolerance;
   if (jumps || segment.wanted.arc) piece_held_ = before(move);
   if (!jumps) return false;
   if (!move.may_jump && !move.may_split) return true;
-  const Vector3 start_mm = in_words_mm(job_, move, planned.start_target);
+  const Via begin = via_of(move, planned.start, 0);
   if (move.may_jump)
-    emitted.edit.jump = Via{start_mm};
+    emitted.edit.jump = begin;
   else
-    emitted.edit.inserted.push_back({start_mm});
-  go_through(move, {start_mm}, piece_held_);
+    emitted.edit.inserted.push_back(begin);
+  go_through(move, begin, piece_held_);
   return true;
 }
 
@@ -97,9 +102,9 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
                         double& unsplit_miss) {
   const Move& move = job_.program.moves[segment.move];
   for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
-    emitted.edit.inserted.push_back({in_words_mm(job_, move, planned.knots[k].target)});
+    emitted.edit.inserted.push_back(via_of(move, planned.knots[k], planned.knots[k].u));
   }
-  const Vector3& end = planned.end ? *planned.end : planned.knots.back().target;
+  const Vector3& end = end_of(planned).target;
   if (move.may_position) {
     Vector3 above = in_words_mm(job_, move, end);
     above.z() = before(move)[2].value_or(move.start_mm.z());
@@ -113,12 +118,14 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                              EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
-  const Vector3 correction = (planned.end ? *planned.end : planned.knots.back().target) - segment.wanted.end;
+  const Vector3 correction = end_of(planned).target - segment.wanted.end;
   Vector3 kept = correction_that_can_be_written(move, correction);
   emitted.in_part = kept != correction;
   const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
   if (ends_elsewhere) kept = correction_where_held(move, kept);
   emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
+  state_.turn = end_of(planned).turn;
+  emitted.edit.orientation = turned_words(job_, move, 1, state_.turn);
   hold(kept, {true, true, true});
   if (emitted.in_part)
     list_held_words(move, correction - kept);

@@ -29,6 +29,7 @@ std::vector<MoveEdit> take_edits(Emission& emission);
 /// What holds where the tool is, from move to move and from window to window.
 struct EmitterState {
   Vector3 correction = Vector3::Zero();  ///< target minus wanted position, M (m)
+  Vector3 turn = Vector3::Zero();        ///< commanded against wanted orientation: rotation vector (rad, M)
   bool correction_known = false;
   std::array<bool, 3> holds{};  ///< program axes that carry it
   bool doubtful = false;  ///< a block made a position unknown that carries the correction, and it still is

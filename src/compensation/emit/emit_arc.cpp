@@ -32,6 +32,11 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       return;
     }
     piece_held_ = pieces.held;
+    for (std::size_t i = 0; i < pieces.vias.size(); ++i) {
+      const double u = pieces.ends[i];
+      pieces.vias[i].orientation =
+          turned_words(job_, move, u, command_at(job_, segment, u, stretch.at(u)).turn);
+    }
     if (end == 1) {
       emitted.edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
@@ -50,7 +55,7 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
           .source = curve_of(move),
           .commanded =
               [&segment, &stretch, X_WM](double u) {
-                return Vector3(X_WM * (point_at(segment.wanted, u) + stretch.at(u)) / mm);
+                return Vector3(X_WM * (point_at(segment.wanted, u) + shift_of(stretch.at(u))) / mm);
               },
           .begin = stretch.begin(),
           .end = stretch.end(),

@@ -12,11 +12,11 @@ std::optional<Emitter::EndHeights> Emitter::end_heights(std::size_t s) const {
   const PlannedSegment& planned = plan_.segments[s];
   const Move& move = job_.program.moves[job_.path.segments[s].move];
   if (!planned.group.empty())
-    return EndHeights{move.start_mm.z() + shift_mm(move, planned.group.front().c).z(),
-                      move.end_mm.z() + shift_mm(move, planned.group.back().c).z()};
+    return EndHeights{move.start_mm.z() + shift_mm(move, shift_of(planned.group.front().c)).z(),
+                      move.end_mm.z() + shift_mm(move, shift_of(planned.group.back().c)).z()};
   if (!planned.end && planned.knots.empty()) return std::nullopt;
-  const Vector3& end = planned.end ? *planned.end : planned.knots.back().target;
-  return EndHeights{in_words_mm(job_, move, planned.start_target).z(), in_words_mm(job_, move, end).z()};
+  const Vector3& end = end_of(planned).target;
+  return EndHeights{in_words_mm(job_, move, planned.start.target).z(), in_words_mm(job_, move, end).z()};
 }
 
 namespace {

@@ -109,7 +109,7 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
     for (const CurveNode& node : plan_.segments[s].group)
       samples.push_back(
           {in_words_mm(job_, move, original_command(job_, segment.frame, point_at(segment.wanted, node.u))),
-           shift_mm(move, node.c)});
+           shift_mm(move, shift_of(node.c))});
   }
   group_motion_.reset();
   const std::vector<GroupSample>& samples = cuts.empty() ? others : cuts;
@@ -162,7 +162,7 @@ std::optional<double> Emitter::height_shift_mm(const Move& move, Index s) const 
                      job_.program.moves[job_.path.segments[next].move].group == move.group;
   if (!group_in_xy_ || !known) return std::nullopt;
   const std::vector<CurveNode>& nodes = plan_.segments[next].group;
-  return shift_mm(move, s ? nodes.back().c : nodes.front().c).z();
+  return shift_mm(move, shift_of(s ? nodes.back().c : nodes.front().c)).z();
 }
 
 // The shift at the end of a move of the group; `height` where that of Z is not known there.
@@ -211,7 +211,7 @@ void Emitter::divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) 
   if (!move.may_split || !group_in_xy_ || nodes.size() < 3 || move.arc->turns > 0) return;
   const bool flat = stays_flat(move);
   std::vector<double> heights;
-  for (const CurveNode& node : nodes) heights.push_back(shift_mm(move, node.c).z());
+  for (const CurveNode& node : nodes) heights.push_back(shift_mm(move, shift_of(node.c)).z());
   const double room_mm = height_share * job_.options.tolerance / mm;
   std::size_t stride = nodes.size() - 1;
   while (stride > 1 && (flat ? half_range(heights, stride) : miss_between(heights, stride)) > room_mm)

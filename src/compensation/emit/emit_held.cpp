@@ -69,7 +69,8 @@ void Emitter::emit_fixed(std::size_t m) {
 
 MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
   const Move& move = job_.program.moves[m];
-  MoveEdit edit{.move = m, .end_mm = move.end_mm + shift};
+  MoveEdit edit{
+      .move = m, .end_mm = move.end_mm + shift, .orientation = turned_words(job_, move, 1, state_.turn)};
   if (move.arc) edit.centre_mm = shifted_centre(move, shift);
   return edit;
 }

@@ -14,21 +14,23 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 }  // namespace
 
-// The correction at a wanted position without cutting force; the emission fails without one.
-std::optional<Vector3> Emitter::solve_position(const Vector3& wanted, const Move& move) {
+// The correction at a wanted position without cutting force, as a shift (m) and a turn; the emission fails
+// without one.
+std::optional<Emitter::PositionCorrection> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
-  const TargetRequest request{&model, wanted};
+  const TargetRequest request{&model, wanted, Vector6::Zero(), orientation_of(job_, move)};
   TargetAnswer answer;
   solver_.targets({&request, 1}, {&answer, 1});
   if (answer.status != Status::converged) {
-    out_.failure =
-        status_failure(job_, answer.status, {model, frame(move), move.tool, answer.target}, move.line);
+    out_.failure = status_failure(job_, answer.status,
+                                  {model, frame(move), move.tool, answer.target, request.R_MT}, move.line);
     return std::nullopt;
   }
   const Vector3 correction = answer.target - wanted;
   out_.failure = limit_failure(job_, correction + frame(move).datum_shift, move.line);
+  if (!out_.failure) out_.failure = turn_limit_failure(job_, answer.turn, move.line);
   if (out_.failure) return std::nullopt;
-  return correction;
+  return PositionCorrection{correction, answer.turn};
 }
 
 // Those that are too far before `move` take no correction of its own: to be called before it has one.
@@ -50,19 +52,21 @@ void Emitter::give_to_pending() {
 // The first position that is known in all axes: its correction serves the words before it as well.
 void Emitter::emit_first_known(std::size_t m) {
   const Move& move = job_.program.moves[m];
-  const std::optional<Vector3> correction = solve_position(wanted_of(job_, move), move);
-  if (!correction) return;
+  const std::optional<PositionCorrection> solved = solve_position(wanted_of(job_, move), move);
+  if (!solved) return;
+  const Vector3& correction = solved->shift;
   leave_far_pending_alone(move);
-  const Vector3 kept = correction_that_can_be_written(move, *correction);
+  const Vector3 kept = correction_that_can_be_written(move, correction);
   hold(kept, {true, true, true});
+  state_.turn = solved->turn;
   give_to_pending();
-  if (kept != *correction)
-    list_held_words(move, *correction - kept);
+  if (kept != correction)
+    list_held_words(move, correction - kept);
   else if (move.motion == Motion::feed)
     list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
   put({.edit = shifted(m, shift_mm(move, state_.correction)),
        .kind = Kind::alone,
-       .in_part = kept != *correction || move.motion == Motion::feed});
+       .in_part = kept != correction || move.motion == Motion::feed});
 }
 
 // A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
@@ -70,9 +74,9 @@ void Emitter::emit_first_known(std::size_t m) {
 void Emitter::emit_hole(std::size_t m) {
   const Move& move = job_.program.moves[m];
   const Vector3 bottom = wanted_frame(frame(move)) * (bottom_of(move) * mm);
-  const std::optional<Vector3> correction = solve_position(bottom, move);
-  if (!correction) return;
-  Vector3 shift = shift_mm(move, *correction);
+  const std::optional<PositionCorrection> solved = solve_position(bottom, move);
+  if (!solved) return;
+  Vector3 shift = shift_mm(move, solved->shift);
   const Vector3 entered = held_shift_mm(move);
   EmittedMove emitted{.edit = {.move = m}, .kind = Kind::alone};
   if (!move.cycle->bottom_word && !move.cycle->may_insert_bottom) {

@@ -34,6 +34,8 @@ class Emitter {
                  double& unsplit_miss);
   void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                       EmittedMove& emitted);
+  /// A point of the text for a command at a fraction of the move.
+  Via via_of(const Move& move, const Command& command, double u) const;
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
   Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
@@ -77,7 +79,10 @@ class Emitter {
   // emit_position.cpp
   void emit_first_known(std::size_t m);
   void emit_hole(std::size_t m);
-  std::optional<Vector3> solve_position(const Vector3& wanted, const Move& move);
+  struct PositionCorrection {
+    Vector3 shift, turn;  // M (m, rad)
+  };
+  std::optional<PositionCorrection> solve_position(const Vector3& wanted, const Move& move);
   void give_to_pending();
   void leave_far_pending_alone(const Move& move);
 

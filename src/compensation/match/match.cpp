@@ -83,7 +83,7 @@ constexpr double least_jump = 1e-9;  // m: of the correction
 // A segment that does not begin where the one before it ends is preceded by a jump.
 bool may_jump(const PlannedWays& ways, std::size_t s, const PlannedSegment& planned) {
   if (planned.starts_anywhere || (planned.knots.empty() && !planned.end)) return false;
-  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start_target).norm() > least_jump;
+  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start.target).norm() > least_jump;
 }
 
 // Where the curves of the correction of an arc meet, by a step or without one.
@@ -91,10 +91,10 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
   for (std::size_t i = 1; i < planned.arc.size(); ++i) {
     const CorrectionCurve &before = planned.arc[i - 1], &behind = planned.arc[i];
     const double u = behind.begin();
-    const Vector3 p = point_at(arc, u), ends = before.intervals().back().nodes.back().c,
-                  begins = behind.at(u);
-    knots.push_back({u, p + ends});
-    if ((begins - ends).norm() > least_jump) knots.push_back({u, p + begins});
+    const Vector3 p = point_at(arc, u), ends = shift_of(before.intervals().back().nodes.back().c),
+                  begins = shift_of(behind.at(u));
+    knots.push_back({{p + ends}, u});
+    if ((begins - ends).norm() > least_jump) knots.push_back({{p + begins}, u});
   }
 }
 
@@ -115,9 +115,9 @@ PlannedWays planned_ways(const Job& job, const Plan& plan) {
   for (std::size_t s = 0; s < ways.size(); ++s) {
     const PlannedSegment& planned = plan.segments[s];
     PlannedWay& way = ways[s];
-    way.end = planned.end;
+    if (planned.end) way.end = planned.end->target;
     if (!way.end && !planned.knots.empty()) way.end = planned.knots.back().target;
-    if (may_jump(ways, s, planned)) way.inner.push_back({0, planned.start_target});
+    if (may_jump(ways, s, planned)) way.inner.push_back({planned.start, 0});
     if (planned.knots.size() > 1)
       way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
     add_borders(job.path.segments[s].wanted, planned, way.inner);

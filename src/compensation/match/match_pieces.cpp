@@ -31,6 +31,7 @@ double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
 // A move of the corrected program, and the fraction at which it ends.
 struct Step {
   Curve way;
+  BoxedOptional<Turn> turn{};
   int line = 0;
   double u = -1;  // not yet known
   bool settled = false;
@@ -44,6 +45,7 @@ std::vector<Step> steps_of(const Job& job, const MatchedMoves& matched) {
     const Move& move = *found.move;
     Step& step = steps.emplace_back();
     step.way = all_known(move.known_start) ? command_of(job, move) : Curve{from, target_of(job, move), {}};
+    step.turn = turn_of(job, move);
     step.line = move.line;
     from = step.way.end;
   }
@@ -73,7 +75,8 @@ bool find_jump(const Knot& knot, double tolerance, std::vector<Step>& steps, std
   const Vector3 end = steps[next].way.end;
   if ((end - knot.target).norm() > tolerance) return false;
   // What is left of the way behind the jump may be less than a digit.
-  if (next + 1 == steps.size()) steps.push_back({{end, end, {}}, steps.back().line, 1, true});
+  if (next + 1 == steps.size())
+    steps.push_back({{end, end, {}}, steps.back().turn, steps.back().line, 1, true});
   steps[next].u = knot.u;
   steps[next].settled = steps[next].jump = true;
   ++next;
@@ -139,6 +142,7 @@ void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& mat
             .u1 = step.u,
             .frame = segment.frame,
             .commanded = step.way,
+            .turn = step.turn,
             .end_only = !segment.cutting,
             .exempt = !own || !original.may_split,
             .exempt_end = !own || !takes_all_words(original) || (original.corners && &step != &steps.back())},
@@ -157,7 +161,9 @@ bool refine(const Job& job, PlaceSolver& solver, const std::vector<std::size_t>&
   for (const std::size_t i : open) {
     const Piece& piece = drafts[i].piece;
     const Model& model = model_of(job, job.path.segments[piece.segment]);
-    requests.push_back({&model, piece.commanded.end, job.forces.at(piece.segment, piece.u1, Side::before)});
+    ForwardRequest& request = requests.emplace_back(
+        ForwardRequest{&model, piece.commanded.end, job.forces.at(piece.segment, piece.u1, Side::before)});
+    if (piece.turn) request.R = piece.turn->end;
   }
   solver.forwards(requests, answers);
   const auto fails = [](const ForwardAnswer& answer) { return answer.status != Status::converged; };

@@ -16,6 +16,15 @@ bool is_first_known(const Move& move) {
 
 }  // namespace
 
+namespace {
+
+BoxedOptional<Turn> turn_between(const Segment& segment, double u0, double u1) {
+  if (!segment.turn) return {};
+  return stretch(*segment.turn, u0, u1);
+}
+
+}  // namespace
+
 std::vector<Piece> original_pieces(const Job& job) {
   std::vector<Piece> pieces;
   std::vector<double> places;
@@ -41,6 +50,7 @@ std::vector<Piece> original_pieces(const Job& job) {
                         .u1 = u,
                         .frame = segment.frame,
                         .commanded = back * stretch(segment.wanted, u0, u),
+                        .turn = turn_between(segment, u0, u),
                         .end_only = !segment.cutting});
       u0 = u;
     }

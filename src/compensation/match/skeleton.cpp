@@ -32,6 +32,8 @@ std::vector<Span> rewritten_numbers(const Move& move) {
     if (!move.polar || is_height(move, move.words[axis])) add(move.words[axis]);
   if (move.called && move.called->modal.empty())
     for (const auto& height : move.called->heights) add(height);
+  if (move.orientation)
+    for (const auto& word : move.orientation->words) add(word);
   if (move.arc) {
     for (const auto& word : move.arc->centre_words) add(word);
     add(move.arc->radius_word);

@@ -7,12 +7,15 @@
 
 namespace counterflex {
 
+/// A point at a fraction.
+using PointAt = std::function<Vector3(double u)>;
+
 /// An arc of a program and the curve that its commands should follow.
 struct ArcTask {
   const Move& move;
   const WriteOptions& options;
-  Curve source;        ///< the move's own way, program coordinates (mm)
-  VectorAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  Curve source;       ///< the move's own way, program coordinates (mm)
+  PointAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
   double begin = 0, end = 1;    ///< fractions between which `commanded` has no step
   std::vector<double> corners;  ///< fractions where the correction has corners
   double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions

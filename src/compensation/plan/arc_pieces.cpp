@@ -162,7 +162,12 @@ class ArcDivider {
   }
 
   void put_chords_between(double u0, double u1) {
-    for (const double u : choose_knots(task_.commanded, u0, u1, task_.corners, task_.chord_room_mm)) {
+    const CorrectionAt commanded = [this](double u) {
+      Correction place = Correction::Zero();
+      place.head<3>() = task_.commanded(u);
+      return place;
+    };
+    for (const double u : choose_knots(commanded, u0, u1, task_.corners, task_.chord_room_mm)) {
       const Via via{task_.commanded(u)};
       put(via, u, end_of(via, u));
     }

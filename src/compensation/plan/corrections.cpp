@@ -8,15 +8,17 @@ Answer Corrections::ask(std::size_t segment, double u, Side side) {
   const Segment& on = job_.path.segments[segment];
   const bool joins = u == 0 && !requests_.empty() && segments_.back() + 1 == segment &&
                      job_.forces.follows(segment) && requests_.back().p_MT == on.wanted.start &&
+                     requests_.back().R_MT == orientation_at(on, 0) &&
                      requests_.back().model == &model_of(job_, on);
   return joins ? requests_.size() - 1 : ask(segment, u, force_at(segment, u, side));
 }
 
 Answer Corrections::ask(std::size_t segment, double u, const Vector6& F) {
   const Segment& on = job_.path.segments[segment];
-  const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F};
+  const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F, orientation_at(on, u)};
   const bool same = !requests_.empty() && requests_.back().model == request.model &&
-                    requests_.back().p_MT == request.p_MT && requests_.back().F == F;
+                    requests_.back().p_MT == request.p_MT && requests_.back().R_MT == request.R_MT &&
+                    requests_.back().F == F;
   if (same) return requests_.size() - 1;
   requests_.push_back(request);
   segments_.push_back(segment);
@@ -27,7 +29,9 @@ std::optional<Failure> Corrections::failure_of(Answer a) const {
   const Segment& segment = job_.path.segments[segments_[a]];
   const TargetAnswer& answer = answers_[a];
   if (answer.status != Status::converged) return status_failure(job_, answer.status, segment, answer.target);
-  return limit_failure(job_, correction(a) + job_.path.frames[segment.frame].datum_shift, segment.line);
+  if (auto failure = turn_limit_failure(job_, answer.turn, segment.line)) return failure;
+  const Vector3 shift = shift_of(correction(a)) + job_.path.frames[segment.frame].datum_shift;
+  return limit_failure(job_, shift, segment.line);
 }
 
 void Corrections::solve() {

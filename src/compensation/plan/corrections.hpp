@@ -16,7 +16,7 @@ inline constexpr Answer no_answer = static_cast<Answer>(-1);
 /// the limit.
 class Corrections {
  public:
-  Corrections(const Job& job, PlaceSolver& solver) : job_(job), solver_(solver) {}
+  Corrections(const Job& job, PlaceSolver& solver) : job_(job), lever_(lever(job.options)), solver_(solver) {}
 
   /// Requests the correction at a fraction of a segment. A request is shared with the last one if that has
   /// the same place and force.
@@ -31,8 +31,11 @@ class Corrections {
   /// Solves what was requested since the last time.
   void solve();
 
-  Vector3 correction(Answer a) const { return answers_[a].target - requests_[a].p_MT; }  ///< M (m)
-  Vector3 target(Answer a) const { return answers_[a].target; }                          ///< M (m)
+  Correction correction(Answer a) const {
+    Correction c;
+    c << answers_[a].target - requests_[a].p_MT, lever_ * answers_[a].turn;
+    return c;
+  }
   const Vector6& force(Answer a) const { return requests_[a].F; }
   CurveNode node(double u, Answer a) const { return {u, correction(a)}; }
 
@@ -47,6 +50,7 @@ class Corrections {
   std::optional<Failure> failure_of(Answer a) const;
 
   const Job& job_;
+  const double lever_;
   PlaceSolver& solver_;
   ForceCursor cursor_;
   std::vector<TargetRequest> requests_;

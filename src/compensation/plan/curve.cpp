@@ -8,13 +8,13 @@ namespace {
 
 // A vector to be interpolated linearly between knots, with the places where it has corners.
 struct Interpolated {
-  const VectorAt& at;
+  const CorrectionAt& at;
   const std::vector<double>& corners;
 };
 
 // At sixteenths and at corners. The middle comes first: a line that is too long mostly shows it there.
 bool stays_within(const Interpolated& curve, double u0, double u1, double tolerance) {
-  const Vector3 c0 = curve.at(u0), c1 = curve.at(u1);
+  const Correction c0 = curve.at(u0), c1 = curve.at(u1);
   const auto holds = [&](double u) {
     const double w = (u - u0) / (u1 - u0);
     return (curve.at(u) - (1 - w) * c0 - w * c1).norm() <= tolerance;
@@ -47,8 +47,8 @@ std::vector<double> greedy(const Interpolated& curve, double u0, double end, dou
 
 }  // namespace
 
-Vector3 polynomial_at(const std::vector<CurveNode>& nodes, double u) {
-  Vector3 sum = Vector3::Zero();
+Correction polynomial_at(const std::vector<CurveNode>& nodes, double u) {
+  Correction sum = Correction::Zero();
   for (std::size_t i = 0; i < nodes.size(); ++i) {
     double weight = 1;
     for (std::size_t j = 0; j < nodes.size(); ++j)
@@ -58,15 +58,15 @@ Vector3 polynomial_at(const std::vector<CurveNode>& nodes, double u) {
   return sum;
 }
 
-Vector3 CorrectionCurve::at(double u) const {
+Correction CorrectionCurve::at(double u) const {
   const auto after = std::upper_bound(intervals_.begin(), intervals_.end(), u,
                                       [](double v, const CurveInterval& i) { return v < i.nodes.back().u; });
   const CurveInterval& interval = after == intervals_.end() ? intervals_.back() : *after;
   return polynomial_at(interval.nodes, u);
 }
 
-std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const std::vector<double>& corners,
-                                 double tolerance) {
+std::vector<double> choose_knots(const CorrectionAt& at, double u0, double u1,
+                                 const std::vector<double>& corners, double tolerance) {
   const Interpolated curve{at, corners};
   std::vector<double> knots = greedy(curve, u0, u1, tolerance);
   if (knots.size() < 2) return knots;
@@ -86,7 +86,7 @@ std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const
 
 std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
                                  double tolerance) {
-  const VectorAt at = [&curve](double u) { return curve.at(u); };
+  const CorrectionAt at = [&curve](double u) { return curve.at(u); };
   return choose_knots(at, curve.begin(), curve.end(), corners, tolerance);
 }
 

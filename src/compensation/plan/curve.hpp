@@ -7,9 +7,17 @@
 
 namespace counterflex {
 
+/// Command minus wanted place, axes of M: position (m), and rotation vector by its lever (m): zero where the
+/// program gives no orientation. So its norm is what a tolerance is for.
+using Correction = Vector6;
+
+inline Vector3 shift_of(const Correction& c) {
+  return c.head<3>();
+}
+
 struct CurveNode {
-  double u = 0;                 ///< fraction of the segment
-  Vector3 c = Vector3::Zero();  ///< target minus wanted position, M (m)
+  double u = 0;  ///< fraction of the segment
+  Correction c = Correction::Zero();
 };
 
 /// A stretch without corners: the polynomial through its nodes.
@@ -20,7 +28,7 @@ struct CurveInterval {
 class CorrectionCurve {
  public:
   /// The correction at `u`; at a step between two intervals that of the later one.
-  Vector3 at(double u) const;
+  Correction at(double u) const;
 
   double begin() const { return intervals_.front().nodes.front().u; }
   double end() const { return intervals_.back().nodes.back().u; }
@@ -32,15 +40,15 @@ class CorrectionCurve {
 };
 
 /// The polynomial through nodes (Lagrange's form).
-Vector3 polynomial_at(const std::vector<CurveNode>& nodes, double u);
+Correction polynomial_at(const std::vector<CurveNode>& nodes, double u);
 
 /// Something to be interpolated, at a fraction.
-using VectorAt = std::function<Vector3(double u)>;
+using CorrectionAt = std::function<Correction(double u)>;
 
 /// Knots (fractions, the last one `u1`) such that between them, at sixteenths and at `corners`, the straight
 /// line between two of them is within `tolerance` of `at`: as few as possible, then evened out.
-std::vector<double> choose_knots(const VectorAt& at, double u0, double u1, const std::vector<double>& corners,
-                                 double tolerance);
+std::vector<double> choose_knots(const CorrectionAt& at, double u0, double u1,
+                                 const std::vector<double>& corners, double tolerance);
 
 /// The same for a whole correction, `tolerance` in m.
 std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,

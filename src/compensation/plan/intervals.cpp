@@ -11,7 +11,7 @@ constexpr double smallest_interval =
 
 // A second difference far below the accuracy: the line is the curve.
 bool is_line(const Corrections& corrections, const Interval& i, double accuracy) {
-  const Vector3 chord = (corrections.correction(i.at[0]) + corrections.correction(i.at[4])) / 2;
+  const Correction chord = (corrections.correction(i.at[0]) + corrections.correction(i.at[4])) / 2;
   return (corrections.correction(i.at[2]) - chord).norm() < accuracy / 4;
 }
 

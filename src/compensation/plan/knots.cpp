@@ -41,7 +41,7 @@ std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_
     if (!room) return few_decimals_failure(job.program.moves[segment.move], job.options);
     knots = choose_knots(stretch, corners, *room);
   }
-  for (const double u : knots) planned.knots.push_back({u, point_at(segment.wanted, u) + stretch.at(u)});
+  for (const double u : knots) planned.knots.push_back({command_at(job, segment, u, stretch.at(u)), u});
   return std::nullopt;
 }
 
@@ -51,14 +51,15 @@ std::optional<Failure> set_gain(const Job& job, PlaceSolver& solver, std::size_t
   const Model& model = model_of(job, segment);
   const Vector3& end = segment.wanted.end;
   const Vector6 F = job.forces.at(index, 1);
-  gain = solver.bend_along(model, {end, end, F, F, {}}).gain;
+  const std::optional<Matrix3> R = orientation_at(segment, 1);
+  gain = R ? HUGE_VAL : solver.bend_along(model, {end, end, F, F, {}}).gain;
   if (std::isfinite(gain)) return std::nullopt;
   std::array<ForwardRequest, 6> requests;
   std::array<ForwardAnswer, 6> reached;
   for (std::size_t k = 0; k < 6; ++k) {
     const Vector3 aside =
         (k % 2 != 0 ? -gain_probe : gain_probe) * Vector3::Unit(static_cast<Eigen::Index>(k / 2));
-    requests[k] = {&model, end + aside, F};
+    requests[k] = {.model = &model, .target = end + aside, .F = F, .R = R};
   }
   solver.forwards(requests, reached);
   Matrix3 J;
@@ -75,7 +76,7 @@ std::optional<Failure> set_gain(const Job& job, PlaceSolver& solver, std::size_t
 
 void forbid_splitting(const Segment& segment, PlannedSegment& planned) {
   if (planned.knots.size() < 2) return;
-  const Vector3 c0 = planned.start_target - segment.wanted.start,
+  const Vector3 c0 = planned.start.target - segment.wanted.start,
                 c1 = planned.knots.back().target - segment.wanted.end;
   for (const Knot& knot : planned.knots) {
     const Vector3 c = knot.target - point_at(segment.wanted, knot.u);

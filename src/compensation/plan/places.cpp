@@ -20,8 +20,8 @@ int steps_along(const Segment& segment) {
   if (!segment.cutting) return 1;
   const double by_length =
       std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
-  const double by_angle =
-      segment.wanted.arc ? std::ceil(segment.wanted.arc->sweep / angle_between_places) : 1.0;
+  const double angle = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
+  const double by_angle = std::ceil(angle / angle_between_places);
   return static_cast<int>(std::max(by_length, by_angle));
 }
 

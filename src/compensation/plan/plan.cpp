@@ -47,7 +47,7 @@ void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::ve
 // Whether the bound of its cell lets a line go straight between its ends. A step of the force divides it.
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
   const Segment& segment = job.path.segments[task.segment];
-  if (segment.wanted.arc || (job.options.blend == 0 && !task.limits.empty())) return false;
+  if (segment.wanted.arc || segment.turn || (job.options.blend == 0 && !task.limits.empty())) return false;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
   const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
   const LineBend bend = corrections.solver().bend_along(
@@ -114,8 +114,8 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
   for (bool ends = false; !ends; ++interval) {
     stretch.add(nodes_of(corrections, *interval));
     ends = interval->at[4] == task.end;
-    const Vector3 b = corrections.correction(interval->at[4]);
-    const Vector3 a = ends ? b : corrections.correction(interval[1].at[0]);
+    const Correction b = corrections.correction(interval->at[4]);
+    const Correction a = ends ? b : corrections.correction(interval[1].at[0]);
     const bool step = (a - b).norm() > small_share * job.options.tolerance;
     if (!step && !ends) continue;
     if (segment.wanted.arc)
@@ -123,11 +123,11 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
     else if (auto failure = add_knots(job, corrections.solver(), task.segment, stretch, corners, planned))
       return failure;
     if (step && !segment.wanted.arc)
-      planned.knots.push_back({interval->u[4], point_at(segment.wanted, interval->u[4]) + a});
+      planned.knots.push_back({command_at(job, segment, interval->u[4], a), interval->u[4]});
     stretch = {};
   }
   if (segment.wanted.arc) {
-    planned.knots = {{1, corrections.target(task.end)}};
+    planned.knots = {{command_at(job, segment, 1, corrections.correction(task.end)), 1}};
     return set_gain(job, corrections.solver(), task.segment, planned.gain);
   }
   if (!job.program.moves[segment.move].may_split) forbid_splitting(segment, planned);
@@ -136,7 +136,7 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
 
 std::optional<Failure> finish(const Job& job, Corrections& corrections, const PlanTask& task,
                               const Interval*& interval, PlannedSegment& planned) {
-  const Curve& wanted = job.path.segments[task.segment].wanted;
+  const Segment& segment = job.path.segments[task.segment];
   for (std::size_t k = 0; k < task.group.size(); ++k) {
     const double u =
         task.group.size() == 1 ? 1 : static_cast<double>(k) / static_cast<double>(task.group.size() - 1);
@@ -144,10 +144,11 @@ std::optional<Failure> finish(const Job& job, Corrections& corrections, const Pl
   }
   if (task.kind == Kind::held || task.kind == Kind::group) return std::nullopt;
   planned.starts_anywhere = task.start == no_answer;
-  planned.start_target = wanted.start;
-  if (task.start != no_answer) planned.start_target += corrections.correction(task.start);
+  planned.start.target = segment.wanted.start;
+  if (task.start != no_answer)
+    planned.start = command_at(job, segment, 0, corrections.correction(task.start));
   if (task.kind == Kind::cut) return finish_cut(job, corrections, task, interval, planned);
-  planned.end = wanted.end + corrections.correction(task.end);
+  planned.end = command_at(job, segment, 1, corrections.correction(task.end));
   return std::nullopt;
 }
 
@@ -168,6 +169,10 @@ std::optional<Failure> plan_slice(const Job& job, std::size_t begin, std::size_t
 }
 
 }  // namespace
+
+Command command_at(const Job& job, const Segment& segment, double u, const Correction& c) {
+  return {point_at(segment.wanted, u) + shift_of(c), c.tail<3>() / lever(job.options)};
+}
 
 Plan plan(const Job& job) {
   const std::size_t count = job.path.segments.size();

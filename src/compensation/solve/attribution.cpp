@@ -15,18 +15,23 @@ struct Solved {
 
 // The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
 Pose reference(const ForwardPlace& place, const Stage& stage) {
-  return stage.errors == 0 ? Pose{place.wanted.R, place.original} : place.wanted;
+  return stage.errors == 0 ? Pose{place.wanted.R, place.original.p} : place.wanted;
 }
 
 // The deviation under `stage` of a command, where `before` is known.
 template <typename Result>  // Vector6&(Waypoint&)
-void deviations(const Solved& at, Vector3 ForwardPlace::*command, const Stage& stage, const Result& result) {
+void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Result& result) {
   std::vector<std::size_t> asked;
   std::vector<ForwardRequest> requests;
   for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
     if (!knows_before(at.waypoints[i])) continue;
     asked.push_back(i);
-    requests.push_back({at.places[i].model, at.places[i].*command, at.places[i].F, stage});
+    const Target& target = at.places[i].*command;
+    requests.push_back({.model = at.places[i].model,
+                        .target = target.p,
+                        .F = at.places[i].F,
+                        .stage = stage,
+                        .R = target.R});
   }
   std::vector<ForwardAnswer> answers(requests.size());
   at.solver.forwards(requests, answers);
@@ -49,7 +54,7 @@ bool any_machine(std::span<const ForwardPlace> places, bool (*is)(const Mechanis
 }
 
 void add_sources(const Solved& at) {
-  const auto add = [&](Vector3 ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
+  const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
     deviations(at, command, stage, [&](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
   };
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);

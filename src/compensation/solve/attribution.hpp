@@ -7,10 +7,16 @@
 
 namespace counterflex {
 
+/// A position (M, m), and an orientation where the program gives one.
+struct Target {
+  Vector3 p = Vector3::Zero();
+  std::optional<Matrix3> R{};
+};
+
 /// What has been solved at a waypoint.
 struct ForwardPlace {
   const Model* model = nullptr;
-  Vector3 original = Vector3::Zero(), emitted = Vector3::Zero();  ///< targets, M (m)
+  Target original, emitted;
   Vector6 F = Vector6::Zero();
   Pose wanted;  ///< X_MT
 };

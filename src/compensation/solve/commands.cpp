@@ -30,6 +30,27 @@ Curve command_of(const Job& job, const Move& move) {
   return job.path.frames[move.frame].X_MW * curve;
 }
 
+std::optional<Matrix3> orientation_of(const Job& job, const Move& move) {
+  if (!move.orientation) return std::nullopt;
+  return Matrix3(job.path.frames[move.frame].X_MW.R *
+                 rotation_of(move.orientation->form, move.orientation->end));
+}
+
+std::optional<Turn> turn_of(const Job& job, const Move& move) {
+  if (!move.orientation) return std::nullopt;
+  return job.path.frames[move.frame].X_MW.R * turn_of(*move.orientation);
+}
+
+std::optional<OrientationNumbers> turned_words(const Job& job, const Move& move, double u,
+                                               const Vector3& turn) {
+  if (!move.orientation) return std::nullopt;
+  const OrientationNumbers original = numbers_at(*move.orientation, u);
+  if (turn.isZero(0)) return original;
+  const Vector3 in_program = job.path.frames[move.frame].X_MW.R.transpose() * turn;
+  const OrientationForm form = move.orientation->form;
+  return numbers_of(form, exp_so3(in_program) * rotation_of(form, original), original);
+}
+
 Vector3 wanted_of(const Job& job, const Move& move) {
   return wanted_frame(job.path.frames[move.frame]) * (move.end_mm * mm);
 }
@@ -59,7 +80,10 @@ Piece piece_of_hole(const Job& job, const Move& original, const Move& found) {
 }
 
 Piece piece_of_position(const Job& job, const Move& original, const Move& found) {
-  return piece_of_end(original, target_of(job, found), wanted_of(job, original));
+  Piece piece = piece_of_end(original, target_of(job, found), wanted_of(job, original));
+  if (const auto R = orientation_of(job, found)) piece.turn = Turn{*R, *R, {}};
+  piece.R_wanted = orientation_of(job, original);
+  return piece;
 }
 
 std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {

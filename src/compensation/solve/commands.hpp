@@ -20,6 +20,17 @@ Vector3 target_of(const Job& job, const Move& move);
 /// The way of a move whose start is known, as targets in M (m).
 Curve command_of(const Job& job, const Move& move);
 
+/// The orientation in M that the program gives at the end of a move, if it gives one.
+std::optional<Matrix3> orientation_of(const Job& job, const Move& move);
+
+/// How a move turns the tool, in M, if the program gives orientations.
+std::optional<Turn> turn_of(const Job& job, const Move& move);
+
+/// The numbers of the move's words that turn the tool at fraction `u` by the rotation vector `turn` (rad,
+/// axes of M) against the original; none where the move gives no orientation.
+std::optional<OrientationNumbers> turned_words(const Job& job, const Move& move, double u,
+                                               const Vector3& turn);
+
 /// The end of a move of the original as a wanted position in M (m).
 Vector3 wanted_of(const Job& job, const Move& move);
 

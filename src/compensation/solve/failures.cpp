@@ -9,6 +9,7 @@
 #include "compensation/solve/solver.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/statics/arm_margins.hpp"
 
 namespace counterflex {
 namespace {
@@ -79,8 +80,10 @@ Failure status_failure(const Job& job, Status status, const CommandedPlace& at, 
 
 Failure status_failure(const Job& job, Status status, const Segment& segment, const Vector3& target) {
   const Move& move = job.program.moves[segment.move];
-  return status_failure(job, status, {model_of(job, segment), job.path.frames[move.frame], move.tool, target},
-                        segment.line);
+  return status_failure(
+      job, status,
+      {model_of(job, segment), job.path.frames[move.frame], move.tool, target, orientation_at(segment, 1)},
+      segment.line);
 }
 
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
@@ -93,6 +96,15 @@ std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, 
                              job.options.max_correction / mm)};
 }
 
+std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, int line) {
+  const double size = turn.norm();
+  if (size <= job.options.max_turn) return std::nullopt;
+  return Failure{
+      ErrorKind::limit, line,
+      fmt::format("the correction would turn the tool by {:.3f} deg, more than the limit of {:.3f} deg",
+                  size / deg, job.options.max_turn / deg)};
+}
+
 double position_miss(const Job& job, const Waypoint& w) {
   Vector3 miss = Vector3::Zero();
   for (Component c : job.model.mechanism.controlled)
@@ -100,10 +112,35 @@ double position_miss(const Job& job, const Waypoint& w) {
   return miss.norm();
 }
 
+namespace {
+
+// The tilt and the spin of a waypoint whose orientation the program gives.
+std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
+  if (!w.R_MT) return std::nullopt;
+  const Vector3 turn = w.after.tail<3>(), axis = w.R_MT->col(2);
+  const double tilted = tilt(turn, axis).norm(), spun = std::abs(turn.dot(axis));
+  const auto fail = [&](const char* what, double angle, double tolerance) {
+    return Failure{
+        ErrorKind::not_compensated, w.line,
+        fmt::format("verification failed: the tool is {} by {} deg at {:.1f} % of this move, the "
+                    "tolerance is {:.4f} deg",
+                    what, format_beside(angle / deg, tolerance / deg, 4), 100 * w.fraction, tolerance / deg),
+        w.corrected_line};
+  };
+  if (tilted > job.options.tilt_tolerance) return fail("tilted", tilted, job.options.tilt_tolerance);
+  const auto& most_spin = job.options.spin_tolerance;
+  if (most_spin && spun > *most_spin) return fail("turned about its axis", spun, *most_spin);
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
     const double miss = position_miss(job, w);
-    if (miss <= job.options.tolerance || w.exempt) continue;
+    if (w.exempt) continue;
+    if (auto failure = turn_failure(job, w)) return failure;
+    if (miss <= job.options.tolerance) continue;
     return Failure{
         ErrorKind::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {} mm at {:.1f} % of this move, the "
@@ -115,23 +152,51 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
   return std::nullopt;
 }
 
+namespace {
+
+constexpr double least_arm_margin = 1 * deg;
+
+// An arm that is so near to another configuration that a corrected target might be reached in it.
+std::optional<Failure> configuration_failure(PlaceSolver& solver, const TipPosition& at, int line) {
+  if (!at.R_MT) return std::nullopt;
+  const NominalResult nominal = solver.nominal(at);
+  if (nominal.status != Status::converged) return std::nullopt;
+  const auto margin = arm_margin(*at.model, nominal.configuration);
+  if (!margin || margin->angle >= least_arm_margin) return std::nullopt;
+  return Failure{ErrorKind::not_compensated, line,
+                 fmt::format("the arm is {:.2f} deg from another configuration ({}); at least {:.0f} deg is "
+                             "needed: turn the tool about its axis, or move the part",
+                             margin->angle / deg, margin->what, least_arm_margin / deg)};
+}
+
+// The branch is followed straight from place to place: around an arc and a turn in steps of 22.5 degrees.
+int parts_for_branch(const Segment& segment) {
+  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0, turn_of(segment));
+  return 1 + static_cast<int>(turned / (pi / 8));
+}
+
+}  // namespace
+
 std::optional<Failure> branch_failure(const Job& job) {
   PlaceSolver solver(job);
   std::optional<TipPosition> at = job.from;
   for (const Segment& segment : job.path.segments) {
     const Model& model = model_of(job, segment);
-    const auto go_to = [&](const Vector3& p) {
+    const auto go_to = [&](const TipPosition& next) {
       const bool joins = at && at->model == &model;
-      if (joins && at->p_MT == p) return Status::converged;
-      const Status status = joins ? solver.join(model, at->p_MT, p) : solver.nominal(model, p).status;
-      at = TipPosition{&model, p};
+      if (joins && at->p_MT == next.p_MT && at->R_MT == next.R_MT) return Status::converged;
+      const Status status = joins ? solver.join(*at, next) : solver.nominal(next).status;
+      at = next;
       return status;
     };
-    std::vector<Vector3> places{segment.wanted.start, segment.wanted.end};
-    if (segment.wanted.arc) places = points_along(segment.wanted);
-    for (const Vector3& p : places)
-      if (const Status status = go_to(p); status != Status::converged)
-        return status_failure(job, status, segment, p);
+    const int parts = parts_for_branch(segment);
+    for (int k = 0; k <= parts; ++k) {
+      const double u = static_cast<double>(k) / parts;
+      const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
+      if (const Status status = go_to(next); status != Status::converged)
+        return status_failure(job, status, segment, next.p_MT);
+      if (auto failure = configuration_failure(solver, next, segment.line)) return failure;
+    }
   }
   return std::nullopt;
 }

@@ -15,6 +15,9 @@ Failure status_failure(const Job& job, Status status, const Segment& segment, co
 /// The failure of a correction (emitted minus commanded position, m) larger than the limit.
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line);
 
+/// The failure of a correction that turns the tool (rotation vector, rad) by more than the limit.
+std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, int line);
+
 /// By how much the words of a move as read, and positions that it does not repeat, may be rounded: half of
 /// the last digit times sqrt 3 (m).
 double rounding_as_read(const Move& move);

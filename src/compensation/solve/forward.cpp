@@ -31,6 +31,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   w.exempt = sample.between ? piece.exempt : piece.exempt_end;
   w.p_MT = all.places[s].p_MT;
   w.tool_axis = all.wanted[s].X_MT.R.col(2);
+  if (all.places[s].R_MT) w.R_MT = *all.places[s].R_MT;
   w.wrench = all.requests[s].F;
   if (const Segment* segment = sampled.segment) {
     w.line = segment->line;
@@ -44,6 +45,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   w.rho = all.answers[s].rho;
   if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
   w.correction.head<3>() = all.requests[s].target - original_command(job, frame_of(sampled), w.p_MT);
+  if (w.R_MT && all.requests[s].R) w.correction.tail<3>() = rotation_between(*all.requests[s].R, *w.R_MT);
   return w;
 }
 
@@ -70,7 +72,11 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
   for (const std::size_t s : all.order) {
     const ForwardRequest& request = all.requests[s];
     const Vector3 original = original_command(job, frame_of(all.piece_of(s)), all.places[s].p_MT);
-    places.push_back({request.model, original, request.target, request.F, all.wanted[s].X_MT});
+    places.push_back({request.model,
+                      {original, all.places[s].R_MT},
+                      {request.target, request.R},
+                      request.F,
+                      all.wanted[s].X_MT});
   }
   const auto solved = [&] {
     const auto fails = [](const Waypoint& w) { return w.status != Status::converged; };
@@ -87,7 +93,8 @@ Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const
   const SampledPiece& at = all.piece_of(s);
   const long tool = at.segment != nullptr ? job.program.moves[at.segment->move].tool : at.piece->tool;
   Failure failure = status_failure(
-      job, w.status, {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target}, w.line);
+      job, w.status,
+      {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target, all.requests[s].R}, w.line);
   failure.corrected_line = w.corrected_line;
   return failure;
 }

@@ -35,12 +35,21 @@ struct Slice : PieceSamples {
       if (c <= Component::z) judged[static_cast<int>(c)] = 1;
   }
 
-  Vector3 wanted_at(const SampledPiece& sampled, double u) const {
-    return sampled.segment != nullptr ? point_at(sampled.segment->wanted, u) : sampled.piece->wanted;
+  TipPosition wanted_at(const SampledPiece& sampled, double u) const {
+    if (const Segment* segment = sampled.segment)
+      return {sampled.model, point_at(segment->wanted, u), orientation_at(*segment, u)};
+    const Piece& piece = *sampled.piece;
+    return {sampled.model, piece.wanted, piece.R_wanted ? std::optional(*piece.R_wanted) : std::nullopt};
   }
 
-  // Position error of the tip in the axes in which it is judged (m).
-  Vector3 miss(std::size_t s) const { return (answers[s].X_MT.p - places[s].p_MT).cwiseProduct(judged); }
+  // Position error of the tip in the axes in which it is judged (m), and its tilt by its lever (m).
+  Vector6 miss(std::size_t s) const {
+    Vector6 miss = Vector6::Zero();
+    miss.head<3>() = (answers[s].X_MT.p - places[s].p_MT).cwiseProduct(judged);
+    if (const auto& R = places[s].R_MT)
+      miss.tail<3>() = lever(job.options) * tilt(rotation_between(answers[s].X_MT.R, *R), R->col(2));
+    return miss;
+  }
 };
 
 Vector6 force_at(Slice& slice, const PieceSample& sample) {
@@ -51,8 +60,10 @@ Vector6 force_at(Slice& slice, const PieceSample& sample) {
 std::size_t add_sample(Slice& slice, const PieceSample& sample, const Vector6& F) {
   const SampledPiece& sampled = slice.pieces[sample.piece];
   slice.samples.push_back(sample);
-  slice.places.push_back({sampled.model, slice.wanted_at(sampled, sample.u)});
-  slice.requests.push_back({sampled.model, point_at(sampled.piece->commanded, sample.v), F, {}, true});
+  slice.places.push_back(slice.wanted_at(sampled, sample.u));
+  ForwardRequest& request = slice.requests.emplace_back(
+      ForwardRequest{sampled.model, point_at(sampled.piece->commanded, sample.v), F, {}, true});
+  if (const auto& turn = sampled.piece->turn) request.R = orientation_at(*turn, sample.v);
   return slice.samples.size() - 1;
 }
 
@@ -70,7 +81,9 @@ bool is_where_the_last_ended(Slice& slice, const SampledPiece& sampled) {
   if (slice.samples.empty() || slice.samples.back().between) return false;
   const SampledPiece& last = slice.piece_of(slice.samples.size() - 1);
   const Piece &piece = *sampled.piece, &before = *last.piece;
-  if (last.model != sampled.model || slice.places.back().p_MT != slice.wanted_at(sampled, piece.u0))
+  const TipPosition start = slice.wanted_at(sampled, piece.u0);
+  if (last.model != sampled.model || slice.places.back().p_MT != start.p_MT ||
+      slice.places.back().R_MT != start.R_MT)
     return false;
   const bool follows = before.segment + 1 == piece.segment && before.u1 == 1 && piece.u0 == 0;
   if (follows && slice.job.forces.follows(piece.segment)) return true;
@@ -109,11 +122,12 @@ std::size_t add_behind_step(Slice& slice, std::size_t before) {
 double bend_between(Slice& slice, std::size_t start, double u0, const PieceSample& end,
                     const Vector6& F_end) {
   const SampledPiece& sampled = slice.pieces[end.piece];
-  if (sampled.segment->wanted.arc || sampled.piece->commanded.arc) return HUGE_VAL;
+  if (sampled.segment->wanted.arc || sampled.piece->commanded.arc || sampled.segment->turn) return HUGE_VAL;
   const ForceChord along{sampled.piece->segment, u0, end.u, slice.requests[start].F, F_end};
   const std::vector<Vector6> dF = force_bends(slice.job, along, {}, slice.cursor);
   const LineBend bend = slice.solver.bend_along(
-      *sampled.model, {slice.places[start].p_MT, slice.wanted_at(sampled, end.u), along.F0, along.F1, dF});
+      *sampled.model,
+      {slice.places[start].p_MT, point_at(sampled.segment->wanted, end.u), along.F0, along.F1, dF});
   return bend.gain * bend.command;
 }
 
@@ -203,7 +217,7 @@ void sample_closer(Slice& slice) {
   const double tolerance = slice.job.options.tolerance;
   for (const Stretch& stretch : slice.stretches) {
     if (stretch.m == no_sample || stretch.piece >= slice.end) continue;
-    const Vector3 a = slice.miss(stretch.a), m = slice.miss(stretch.m), b = slice.miss(stretch.b);
+    const Vector6 a = slice.miss(stretch.a), m = slice.miss(stretch.m), b = slice.miss(stretch.b);
     const bool is_safe = (m - (a + b) / 2).norm() <= small_share * tolerance &&
                          std::max({a.norm(), m.norm(), b.norm()}) <= near_share * tolerance;
     for (int k = 0; k < eighths && !is_safe; ++k) {

@@ -32,6 +32,11 @@ std::size_t length_of_run(std::span<const Request> requests) {
   const auto differs = [&](const Request& r) {
     if constexpr (requires { r.stage; })
       if (!(r.stage == requests.front().stage)) return true;
+    if constexpr (requires {
+                    r.F;
+                    r.R_MT;
+                  })
+      if (r.R_MT.has_value() != requests.front().R_MT.has_value()) return true;
     return r.model != requests.front().model;
   };
   return static_cast<std::size_t>(std::find_if(requests.begin(), requests.end(), differs) - requests.begin());
@@ -50,6 +55,13 @@ struct PlaceSolver::OfModel {
       : model(of),
         R_home(tip(of.mechanism, of.home).R),
         only_positions(controls_only_positions(of.mechanism)) {}
+
+  /// The pose at a position: home's orientation where the program gives none.
+  Pose pose(const Vector3& p, const std::optional<Matrix3>& R) const { return {R ? *R : R_home, p}; }
+
+  TurnedPlace place(const Vector3& p, const std::optional<Matrix3>& R) const {
+    return {p, R ? rotation_between(*R, R_home) : Vector3::Zero()};
+  }
 
   StaticsWork& scratch() {
     if (!work) work.emplace(model.mechanism);
@@ -76,12 +88,14 @@ void PlaceSolver::wanted(std::span<const TipPosition> requests, std::span<Wanted
     count = length_of_run(requests);
     OfModel& m = of(*requests.front().model);
     nominals_.assign(count, {});
-    positions_.clear();
-    for (const TipPosition& request : requests.first(count)) positions_.push_back(request.p_MT);
-    if (m.batch) m.batch->nominal_tips(positions_, nominals_);
+    places_.clear();
+    for (const TipPosition& request : requests.first(count))
+      places_.push_back(m.place(request.p_MT, request.R_MT));
+    if (m.batch) m.batch->nominal_tips(places_, nominals_);
     for (std::size_t i = 0; i < count; ++i) {
       answers[i] = nominals_[i].solved ? WantedPose{Status::converged, nominals_[i].X_MT}
-                                       : wanted_alone(m, positions_[i]);
+                                       : wanted_alone(m, requests[i]);
+      if (requests[i].R_MT) answers[i].X_MT = {*requests[i].R_MT, requests[i].p_MT};
       if (answers[i].status != Status::converged && stop == StopAt::first_failure) return;
     }
   }
@@ -97,13 +111,16 @@ void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<Tar
     if (m.batch && method_ == Method::direct) {
       requests_.clear();
       for (const TargetRequest& request : requests.first(count))
-        requests_.push_back({request.p_MT, request.F});
-      m.batch->solve(BatchQuestion::target, {}, requests_, answers_);
+        requests_.push_back({m.place(request.p_MT, request.R_MT), request.F});
+      const bool wants_pose = requests.front().R_MT.has_value();
+      m.batch->solve(wants_pose ? BatchQuestion::pose : BatchQuestion::target, {}, requests_, answers_);
     }
     for (std::size_t i = 0; i < count; ++i) {
       const BatchAnswer& answer = answers_[i];
-      answers[i] = answer.solved ? TargetAnswer{Status::converged, answer.command, answer.iterations}
+      answers[i] = answer.solved ? TargetAnswer{Status::converged, answer.command.p, answer.iterations}
                                  : target_alone(m, requests[i]);
+      if (answer.solved && requests[i].R_MT)
+        answers[i].turn = rotation_between(answer.command.R, *requests[i].R_MT);
       if (answers[i].status != Status::converged && stop == StopAt::first_failure) return;
     }
   }
@@ -120,7 +137,7 @@ void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<F
     if (m.batch) {
       requests_.clear();
       for (const ForwardRequest& request : requests.first(count))
-        requests_.push_back({request.target, stage.load * request.F});
+        requests_.push_back({m.place(request.target, request.R), stage.load * request.F});
       m.batch->solve(BatchQuestion::forward, stage, requests_, answers_);
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -134,29 +151,31 @@ void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<F
   }
 }
 
-NominalResult PlaceSolver::nominal(const Model& model, const Vector3& p_MT) {
-  return nominal(of(model), p_MT);
+NominalResult PlaceSolver::nominal(const TipPosition& at) {
+  return nominal(of(*at.model), at);
 }
 
-NominalResult PlaceSolver::nominal(OfModel& m, const Vector3& p_MT) {
-  return follow(m.model, nominal_near(m, p_MT), {m.R_home, p_MT});
+NominalResult PlaceSolver::nominal(OfModel& m, const TipPosition& at) {
+  return follow(m.model, nominal_near(m, at), m.pose(at.p_MT, at.R_MT));
 }
 
-NominalResult PlaceSolver::nominal(const Model& model, const Vector3& p_MT, const Eigen::VectorXd& rho) {
-  return nominal_forward(model, nominal_near(of(model), p_MT), rho);
+NominalResult PlaceSolver::nominal(const TipPosition& at, const Eigen::VectorXd& rho) {
+  return nominal_forward(*at.model, nominal_near(of(*at.model), at), rho);
 }
 
-const Configuration& PlaceSolver::nominal_near(OfModel& m, const Vector3& p_MT) {
-  const Configuration* near = m.batch ? m.batch->nominal_near(p_MT) : nullptr;
+const Configuration& PlaceSolver::nominal_near(OfModel& m, const TipPosition& at) {
+  const Configuration* near = m.batch ? m.batch->nominal_near(m.place(at.p_MT, at.R_MT)) : nullptr;
   return near != nullptr ? *near : m.model.home;
 }
 
-Status PlaceSolver::join(const Model& model, const Vector3& from, const Vector3& to) {
+Status PlaceSolver::join(const TipPosition& from, const TipPosition& to) {
+  const Model& model = *from.model;
   OfModel& m = of(model);
-  if (m.batch && m.batch->joins(from, to)) return Status::converged;
+  if (m.batch && m.batch->joins(m.place(from.p_MT, from.R_MT), m.place(to.p_MT, to.R_MT)))
+    return Status::converged;
   const NominalResult begin = nominal(m, from);
   if (begin.status != Status::converged) return begin.status;
-  const NominalResult followed = follow(model, begin.configuration, {m.R_home, to});
+  const NominalResult followed = follow(model, begin.configuration, m.pose(to.p_MT, to.R_MT));
   if (followed.status != Status::converged) return followed.status;
   const NominalResult end = nominal(m, to);
   if (end.status != Status::converged) return end.status;
@@ -171,14 +190,14 @@ LineBend PlaceSolver::bend_along(const Model& model, const BatchLine& line) {
   return m.batch ? m.batch->bend_along(line) : LineBend{unknown, unknown};
 }
 
-WantedPose PlaceSolver::wanted_alone(OfModel& m, const Vector3& p_MT) {
-  const NominalResult alone = nominal(m, p_MT);
-  if (alone.status != Status::converged) return {alone.status, {m.R_home, p_MT}};
+WantedPose PlaceSolver::wanted_alone(OfModel& m, const TipPosition& at) {
+  const NominalResult alone = nominal(m, at);
+  if (alone.status != Status::converged) return {alone.status, m.pose(at.p_MT, at.R_MT)};
   return {alone.status, tip(m.model.mechanism, alone.configuration)};
 }
 
 ForwardAnswer PlaceSolver::forward_alone(OfModel& m, const ForwardRequest& request) {
-  const NominalResult commanded = nominal(m, request.target);
+  const NominalResult commanded = nominal(m, {&m.model, request.target, request.R});
   if (commanded.status != Status::converged) return {commanded.status};
   const Mechanism& mechanism = m.model.mechanism;
   const Equilibrium solved =
@@ -193,11 +212,11 @@ ForwardAnswer PlaceSolver::forward_alone(OfModel& m, const ForwardRequest& reque
 TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request) {
   const Vector3& p_MT = request.p_MT;
   if (method_ == Method::linear) return by_linear_theory(m, request);
-  if (!m.only_positions) return by_outer_iteration(m, request);
-  const NominalResult start = nominal(m, p_MT);
+  if (!m.only_positions && !request.R_MT) return by_outer_iteration(m, request);
+  const NominalResult start = nominal(m, {&m.model, p_MT, request.R_MT});
   if (start.status != Status::converged) return {start.status, p_MT};
   const Mechanism& mechanism = m.model.mechanism;
-  const Pose X_MT{tip(mechanism, start.configuration).R, p_MT};
+  const Pose X_MT{request.R_MT.value_or(tip(mechanism, start.configuration).R), p_MT};
   const Load load{request.F, at_platform_};
   const Equilibrium solved =
       method_ == Method::nested
@@ -208,9 +227,10 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
   const Eigen::VectorXd rho = actuator_values(mechanism, solved.configuration);
   const NominalResult commanded = nominal_forward(m.model, start.configuration, rho);
   answer.status = commanded.status;
-  const Vector3 target = tip(mechanism, commanded.configuration).p;
+  const Pose target = tip(mechanism, commanded.configuration);
   for (int c = 0; c < 3; ++c)
-    if (controls(mechanism, c)) answer.target[c] = target[c];  // the other components are not written
+    if (controls(mechanism, c)) answer.target[c] = target.p[c];  // the other components are not written
+  if (request.R_MT) answer.turn = rotation_between(target.R, *request.R_MT);
   if (answer.status == Status::converged) answer.status = travel_status(mechanism, rho);
   return answer;
 }
@@ -234,14 +254,17 @@ TargetAnswer PlaceSolver::by_outer_iteration(OfModel& m, const TargetRequest& re
 }
 
 TargetAnswer PlaceSolver::by_linear_theory(OfModel& m, const TargetRequest& request) {
-  const NominalResult start = nominal(m, request.p_MT);
+  const NominalResult start = nominal(m, {&m.model, request.p_MT, request.R_MT});
   if (start.status != Status::converged) return {start.status, request.p_MT};
   const LinearResult linear =
       linear_deviation(m.model, start.configuration, {request.F, at_platform_}, {}, m.scratch());
   if (linear.status != Status::converged) return {linear.status, request.p_MT, 1};
-  const Pose X_MT{tip(m.model.mechanism, start.configuration).R, request.p_MT};
-  TargetAnswer answer{Status::converged, linear_target(m.model, X_MT, linear).p, 1};
-  const NominalResult commanded = nominal(m, answer.target);
+  const Pose X_MT{request.R_MT.value_or(tip(m.model.mechanism, start.configuration).R), request.p_MT};
+  const Pose target = linear_target(m.model, X_MT, linear);
+  TargetAnswer answer{Status::converged, target.p, 1};
+  std::optional<Matrix3> R;
+  if (request.R_MT) R = target.R, answer.turn = rotation_between(target.R, X_MT.R);
+  const NominalResult commanded = nominal(m, {&m.model, answer.target, R});
   answer.status =
       commanded.status == Status::converged
           ? travel_status(m.model.mechanism, actuator_values(m.model.mechanism, commanded.configuration))

@@ -10,11 +10,13 @@
 
 namespace counterflex {
 
-/// A place where the tip is wanted (M, m), the wrench there (N, N m; axes of M), and the machine.
+/// A place where the tip is wanted (M, m), the wrench there (N, N m; axes of M), and the machine. With an
+/// orientation the tip is wanted in it, too; without one home's is commanded where the machine controls it.
 struct TargetRequest {
   const Model* model = nullptr;
   Vector3 p_MT = Vector3::Zero();
   Vector6 F = Vector6::Zero();
+  std::optional<Matrix3> R_MT{};
 };
 
 /// A command that puts the tip where it is wanted.
@@ -22,15 +24,19 @@ struct TargetAnswer {
   Status status = Status::not_converged;
   Vector3 target = Vector3::Zero();  ///< position to write, in M (m)
   int iterations = 0;
+  /// By which the commanded orientation is turned against the wanted one (rad, axes of M).
+  Vector3 turn = Vector3::Zero();
 };
 
-/// A commanded position (M, m), the wrench there, what else acts, and the machine.
+/// A commanded position (M, m), the wrench there, what else acts, and the machine. Without an orientation
+/// home's is commanded.
 struct ForwardRequest {
   const Model* model = nullptr;
   Vector3 target = Vector3::Zero();
   Vector6 F = Vector6::Zero();
   Stage stage{};
   bool within_travel = false;  ///< a command outside the travel of an actuator is `outside_travel`
+  std::optional<Matrix3> R{};
 };
 
 /// Where the tip is for a command.
@@ -41,8 +47,8 @@ struct ForwardAnswer {
   Eigen::VectorXd rho;  ///< actuators of the command (m, rad)
 };
 
-/// The wanted pose of the tip at a position. Its controlled orientation is home's, uncontrolled components
-/// are those of nominal kinematics.
+/// The wanted pose of the tip at a position. Its controlled orientation is the program's or else home's,
+/// uncontrolled components are those of nominal kinematics.
 struct WantedPose {
   Status status = Status::not_converged;
   Pose X_MT;
@@ -70,15 +76,16 @@ class PlaceSolver {
   void forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
                 StopAt stop = StopAt::first_failure);
 
-  /// The nominal configuration with the tip at `p_MT`, its controlled orientation home's.
-  NominalResult nominal(const Model& model, const Vector3& p_MT);
+  /// The nominal configuration with the tip at a position. Its controlled orientation is the program's or
+  /// else home's.
+  NominalResult nominal(const TipPosition& at);
 
   /// The same where its actuators `rho` (m, rad) are known: much faster.
-  NominalResult nominal(const Model& model, const Vector3& p_MT, const Eigen::VectorXd& rho);
+  NominalResult nominal(const TipPosition& at, const Eigen::VectorXd& rho);
 
-  /// Whether the nominal machine goes from one position (M, m) straight to another on one branch: converged,
-  /// or why not.
-  Status join(const Model& model, const Vector3& from, const Vector3& to);
+  /// Whether the nominal machine goes from one position straight to another, of the same model, on one
+  /// branch: converged, or why not.
+  Status join(const TipPosition& from, const TipPosition& to);
 
   /// As `BatchSolver::bend_along`; infinite without start tables.
   LineBend bend_along(const Model& model, const BatchLine& line);
@@ -86,11 +93,11 @@ class PlaceSolver {
  private:
   struct OfModel;
   OfModel& of(const Model& model);
-  static const Configuration& nominal_near(OfModel& m, const Vector3& p_MT);
-  WantedPose wanted_alone(OfModel& m, const Vector3& p_MT);
+  static const Configuration& nominal_near(OfModel& m, const TipPosition& at);
+  WantedPose wanted_alone(OfModel& m, const TipPosition& at);
   TargetAnswer target_alone(OfModel& m, const TargetRequest& request);
   ForwardAnswer forward_alone(OfModel& m, const ForwardRequest& request);
-  NominalResult nominal(OfModel& m, const Vector3& p_MT);
+  NominalResult nominal(OfModel& m, const TipPosition& at);
   TargetAnswer by_outer_iteration(OfModel& m, const TargetRequest& request);
   TargetAnswer by_linear_theory(OfModel& m, const TargetRequest& request);
 
@@ -100,7 +107,7 @@ class PlaceSolver {
   std::map<const Model*, std::unique_ptr<OfModel>> models_;
   std::vector<BatchRequest> requests_;
   std::vector<BatchAnswer> answers_;
-  std::vector<Vector3> positions_;
+  std::vector<TurnedPlace> places_;
   std::vector<NominalAnswer> nominals_;
 };
 

@@ -18,7 +18,7 @@ std::vector<Matrix3> sampled_orientations(const RunInput& input, const Program& 
     for (int k = 0; k < each; ++k) {
       const double u = each == 1 ? 0.5 : static_cast<double>(k) / (each - 1);
       const Model& model = model_with(input.model, input.tools, window.moves[segment.move].tool);
-      places.push_back({&model, point_at(segment.wanted, u)});
+      places.push_back({&model, point_at(segment.wanted, u), orientation_at(segment, u)});
     }
   std::vector<WantedPose> wanted(places.size());
   PlaceSolver(input.starts, acts_at_platform(input.source)).wanted(places, wanted, StopAt::end);

@@ -22,12 +22,12 @@ void note_planned_corrections(const Job& job, const Plan& plan, Compensation& re
       note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
     };
     const PlannedSegment& planned = plan.segments[s];
-    if (planned.end) note(*planned.end - segment.wanted.end);
+    if (planned.end) note(planned.end->target - segment.wanted.end);
     for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
-    for (const CurveNode& node : planned.group) note(node.c);
+    for (const CurveNode& node : planned.group) note(shift_of(node.c));
     for (const CorrectionCurve& curve : planned.arc)
       for (const CurveInterval& interval : curve.intervals())
-        for (const CurveNode& node : interval.nodes) note(node.c);
+        for (const CurveNode& node : interval.nodes) note(shift_of(node.c));
   }
 }
 

@@ -26,7 +26,7 @@ bool JobWindows::next(JobWindow& window) {
   forces_ = window.forces->tail();
   if (window.path.segments.empty()) return true;
   const Segment& last = window.path.segments.back();
-  tip_ = TipPosition{&model_of(job(window), last), last.wanted.end};
+  tip_ = TipPosition{&model_of(job(window), last), last.wanted.end, orientation_at(last, 1)};
   return true;
 }
 

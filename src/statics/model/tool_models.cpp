@@ -68,9 +68,9 @@ void NominalToolPath::begin(const Model& model, const Configuration& start) {
   path_.emplace(model, start);
 }
 
-Status NominalToolPath::go_to(const Model& model, const Vector3& p_MT) {
+Status NominalToolPath::go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT) {
   if (&model != model_) begin(model, model.home);
-  return path_->go_to({R_home_, p_MT});
+  return path_->go_to({R_MT.value_or(R_home_), p_MT});
 }
 
 Matrix3 NominalToolPath::orientation() const {

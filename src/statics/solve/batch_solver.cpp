@@ -113,8 +113,8 @@ struct BatchSolver::Impl {
 
   explicit Impl(StartTable::Impl& t) : table(t), work(t.model.mechanism) {}
 
-  std::shared_ptr<const KinematicsCell> kinematics_at(const Vector3& p) {
-    const auto index = table.is_able ? table.index_of(p) : std::nullopt;
+  std::shared_ptr<const KinematicsCell> kinematics_at(const TurnedPlace& place) {
+    const auto index = table.is_able ? table.index_of(place.p, place.turn) : std::nullopt;
     if (index != last_index) last_kinematics = index ? table.kinematics(*index) : nullptr;
     last_index = index;
     return last_kinematics;
@@ -122,17 +122,22 @@ struct BatchSolver::Impl {
 
   /// The cell of the whole machine; null if it has no cell.
   const kernel::StartCell* target_at(const Vector3& p) {
-    const auto index = table.is_able ? table.index_of(p) : std::nullopt;
+    const auto index = table.is_able ? table.index_of(p, Vector3::Zero()) : std::nullopt;
     if (index != line_index) line_cell = index ? table.target(*index, {}, work) : nullptr;
     line_index = index;
     return line_cell.get();
+  }
+
+  Matrix3 orientation_of(const TurnedPlace& place) const {
+    return place.turn.isZero(0) ? table.R_home : Matrix3(exp_so3(place.turn) * table.R_home);
   }
 
   void collect(std::span<const BatchRequest> requests, Acting acting) {
     batch.clear(), asked.clear(), cells.clear();
     std::optional<CellIndex> last;
     for (std::size_t i = 0; i < requests.size(); ++i) {
-      const auto index = table.index_of(requests[i].p, requests[i].turn);
+      const TurnedPlace& at = requests[i].at;
+      const auto index = table.index_of(at.p, at.turn);
       if (!index || !requests[i].F.allFinite()) continue;
       if (index != last) {
         Cells& found = cells.emplace_back();
@@ -141,9 +146,7 @@ struct BatchSolver::Impl {
         last = index;
       }
       if (!cells.back().target) continue;
-      const bool turns = !requests[i].turn.isZero(0);
-      batch.add(requests[i].p, turns ? Matrix3(exp_so3(requests[i].turn) * table.R_home) : table.R_home,
-                cells.back().kinematics->start);
+      batch.add(at.p, orientation_of(at), cells.back().kinematics->start);
       append(requests[i].F, batch.F);
       batch.cells.push_back(cells.back().target.get());
       asked.push_back(i);
@@ -164,17 +167,19 @@ struct BatchSolver::Impl {
   void solve(BatchQuestion question, Acting acting, std::span<const BatchRequest> requests,
              std::span<BatchAnswer> answers) {
     collect(requests, acting);
-    const bool is_target = question == BatchQuestion::target;
+    const bool is_forward = question == BatchQuestion::forward;
     kernel::Problem problem{.real = table.question(acting), .nominal = table.nominal()};
-    for (std::size_t j = 0; j < 6; ++j) problem.of_command[j] = !is_target || j >= 3;
+    for (std::size_t j = 0; j < 6; ++j)
+      problem.of_command[j] = is_forward || (question == BatchQuestion::target && j >= 3);
     batch.solve(problem);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       BatchAnswer& answer = answers[asked[i]];
       answer.solved = batch.accepted[i] != 0 && batch.is_stiff[i] != 0 && in_travel(i);
-      answer.command = is_target ? pose_of(&batch.nominal_tips[12 * i]).p : requests[asked[i]].p;
+      answer.command = pose_of(&batch.nominal_tips[12 * i]);
+      if (is_forward) answer.command.p = requests[asked[i]].at.p;
       answer.X_MT = pose_of(&batch.tips[12 * i]);
       answer.iterations = batch.iterations[i];
-      if (!is_target) answer.rho = batch.rho_of(i);
+      if (is_forward) answer.rho = batch.rho_of(i);
     }
   }
 };
@@ -191,18 +196,19 @@ void BatchSolver::solve(BatchQuestion question, const Stage& stage, std::span<co
   impl_->solve(question, *acting, requests, answers);
 }
 
-void BatchSolver::nominal_tips(std::span<const Vector3> p, std::span<NominalAnswer> answers) {
+void BatchSolver::nominal_tips(std::span<const TurnedPlace> places, std::span<NominalAnswer> answers) {
   KernelBatch& batch = impl_->batch;
   batch.clear();
   std::vector<std::shared_ptr<const KinematicsCell>> cells;
   std::vector<std::size_t> asked;
-  for (std::size_t i = 0; i < p.size(); ++i) {
-    const auto cell = impl_->kinematics_at(p[i]);
-    answers[i].solved = cell && cell->R_MT;
-    if (answers[i].solved) answers[i].X_MT = {*cell->R_MT, p[i]};
-    if (!cell || cell->R_MT) continue;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const TurnedPlace& place = places[i];
+    const auto cell = impl_->kinematics_at(place);
+    answers[i].solved = cell && cell->R_MT && place.turn.isZero(0);
+    if (answers[i].solved) answers[i].X_MT = {*cell->R_MT, place.p};
+    if (!cell || answers[i].solved) continue;
     asked.push_back(i);
-    batch.add(p[i], impl_->table.R_home, cell->start);
+    batch.add(place.p, impl_->orientation_of(place), cell->start);
     cells.push_back(cell);
   }
   impl_->solve_kinematics();
@@ -228,30 +234,30 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
   return {bounds.command, bounds.gain};
 }
 
-const Configuration* BatchSolver::nominal_near(const Vector3& p) {
-  impl_->near = impl_->kinematics_at(p);
+const Configuration* BatchSolver::nominal_near(const TurnedPlace& place) {
+  impl_->near = impl_->kinematics_at(place);
   return impl_->near ? &impl_->near->nominal : nullptr;
 }
 
 // Neighbouring cells have the same actuators at a place between them. Along a longer way the nominal machine
 // is followed.
-bool BatchSolver::joins(const Vector3& from, const Vector3& to) {
+bool BatchSolver::joins(const TurnedPlace& from, const TurnedPlace& to) {
   const auto begin = impl_->kinematics_at(from), end = impl_->kinematics_at(to);
   if (!begin || !end) return false;
   if (begin == end) return true;
   const StartTable::Impl& table = impl_->table;
   KernelBatch& batch = impl_->batch;
   batch.clear();
-  for (const auto& cell : {end, begin}) batch.add(to, table.R_home, cell->start);
+  for (const auto& cell : {end, begin}) batch.add(to.p, impl_->orientation_of(to), cell->start);
   impl_->solve_kinematics();
   const double limit = same_place * table.model.mechanism.length;
-  const bool are_neighbours = (from - to).cwiseAbs().maxCoeff() <= table.edge;
+  const bool are_neighbours = (from.p - to.p).cwiseAbs().maxCoeff() <= table.edge;
   if (are_neighbours && batch.accepted[0] != 0 && batch.accepted[1] != 0 &&
       (batch.rho_of(0) - batch.rho_of(1)).norm() < limit)
     return true;
-  const NominalResult start = follow(table.model, begin->nominal, {table.R_home, from});
+  const NominalResult start = follow(table.model, begin->nominal, {impl_->orientation_of(from), from.p});
   if (start.status != Status::converged) return false;
-  const NominalResult followed = follow(table.model, start.configuration, {table.R_home, to});
+  const NominalResult followed = follow(table.model, start.configuration, {impl_->orientation_of(to), to.p});
   return followed.status == Status::converged && batch.accepted[0] != 0 &&
          (actuator_values(table.model.mechanism, followed.configuration) - batch.rho_of(0)).norm() < limit;
 }

@@ -115,8 +115,9 @@ TEST_CASE("a straight way inside the workspace stays on one branch, a way out of
   const StartTables starts;
   for (const StartTables* tables : {static_cast<const StartTables*>(nullptr), &starts}) {
     PlaceSolver solver(tables, false);
-    CHECK(solver.join(model, Vector3(-70, -70, -70) * mm, Vector3(120, 100, 90) * mm) == Status::converged);
-    CHECK(solver.join(model, Vector3::Zero(), Vector3(9, 0, 0)) != Status::converged);
-    CHECK(solver.join(model, Vector3(9, 0, 0), Vector3::Zero()) != Status::converged);
+    const auto at = [&](double x, double y, double z) { return TipPosition{&model, Vector3(x, y, z) * mm}; };
+    CHECK(solver.join(at(-70, -70, -70), at(120, 100, 90)) == Status::converged);
+    CHECK(solver.join(at(0, 0, 0), at(9000, 0, 0)) != Status::converged);
+    CHECK(solver.join(at(9000, 0, 0), at(0, 0, 0)) != Status::converged);
   }
 }

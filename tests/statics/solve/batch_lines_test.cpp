@@ -25,7 +25,7 @@ std::vector<BatchRequest> inside(const LoadedLine& line, int count) {
   std::vector<BatchRequest> places;
   for (int k = 1; k < count; ++k) {
     const double u = static_cast<double>(k) / count, kink = 1 - std::abs(2 * u - 1);
-    places.push_back({(1 - u) * line.begin.p + u * line.end.p,
+    places.push_back({(1 - u) * line.begin.at.p + u * line.end.at.p,
                       (1 - u) * line.begin.F + u * line.end.F + kink * line.kink});
   }
   return places;
@@ -49,8 +49,8 @@ TEST_CASE(
     Random random(31);
     for (int i = 0; i < 12; ++i, ++asked) {
       const LoadedLine line = some_line(bench, batch_trial.trial, random);
-      const LineBend bend =
-          bench.solver.bend_along({line.begin.p, line.end.p, line.begin.F, line.end.F, {&line.kink, 1}});
+      const LineBend bend = bench.solver.bend_along(
+          {line.begin.at.p, line.end.at.p, line.begin.F, line.end.F, {&line.kink, 1}});
       if (!std::isfinite(bend.command)) continue;
       ++bounded;
       std::vector<BatchRequest> places = inside(line, 16);
@@ -59,7 +59,9 @@ TEST_CASE(
       for (const BatchQuestion question : {BatchQuestion::target, BatchQuestion::forward}) {
         const bool target = question == BatchQuestion::target;
         const auto answers = bench.solve(question, whole, places);
-        const auto place = [&](const BatchAnswer& answer) { return target ? answer.command : answer.X_MT.p; };
+        const auto place = [&](const BatchAnswer& answer) {
+          return (target ? answer.command : answer.X_MT).p;
+        };
         const double bound = target ? bend.command : bend.gain * bend.command;
         for (std::size_t k = 1; k + 1 < answers.size(); ++k) {
           REQUIRE(answers[k].solved);

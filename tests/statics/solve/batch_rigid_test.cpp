@@ -53,7 +53,7 @@ TEST_CASE("batches: every waypoint of a rigid machine is solved, as the solver o
     Random random(21);
     std::vector<BatchRequest> requests;
     for (int i = 0; i < 5; ++i)
-      requests.push_back({bench.home().p + trial.centre + random.vector(0.004), random.six(500, 30)});
+      requests.push_back({{bench.home().p + trial.centre + random.vector(0.004)}, random.six(500, 30)});
     for (const BatchQuestion question : {BatchQuestion::forward, BatchQuestion::target})
       for (const Stage& stage : {whole, without_errors}) {
         const auto answers = bench.solve(question, stage, requests);
@@ -81,7 +81,7 @@ TEST_CASE("batches: a rigid machine whose errors no pose can meet is not solved"
   const auto is_solved = [](const Pose& skew) {
     BatchBench bench(mill_beside_slides(skew));
     REQUIRE(bench.model.home_status == Status::converged);
-    const BatchRequest request{bench.home().p + Vector3(0.2, 0.12, -0.1), Vector6::Zero()};
+    const BatchRequest request{{bench.home().p + Vector3(0.2, 0.12, -0.1)}, Vector6::Zero()};
     return bench.solve(BatchQuestion::forward, whole, {request})[0].solved;
   };
   CHECK(is_solved({}));

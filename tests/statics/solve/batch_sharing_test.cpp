@@ -12,8 +12,8 @@ namespace {
 
 bool same_answers(const std::vector<BatchAnswer>& a, const std::vector<BatchAnswer>& b) {
   return std::equal(a.begin(), a.end(), b.begin(), b.end(), [](const BatchAnswer& x, const BatchAnswer& y) {
-    return x.solved == y.solved && x.iterations == y.iterations && x.command == y.command &&
-           x.X_MT.p == y.X_MT.p && x.X_MT.R == y.X_MT.R;
+    return x.solved == y.solved && x.iterations == y.iterations && x.command.p == y.command.p &&
+           x.command.R == y.command.R && x.X_MT.p == y.X_MT.p && x.X_MT.R == y.X_MT.R;
   });
 }
 
@@ -111,7 +111,7 @@ TEST_CASE(
                                       {p, Vector6::Constant(1e9)}};
   for (const BatchQuestion question : {BatchQuestion::forward, BatchQuestion::target})
     for (const BatchRequest& request : bad) {
-      CAPTURE(request.p);
+      CAPTURE(request.at.p);
       CAPTURE(request.F);
       const auto answers = bench.solve(question, whole, {{p, none}, request, {p, 10 * unit(1)}});
       CHECK(answers[0].solved);
@@ -139,7 +139,7 @@ TEST_CASE(
 // freely.
 TEST_CASE("batches: a straight way through a singularity joins nothing, though a way beside it does") {
   BatchBench bench(machine_of("serial6r_joints"));
-  const auto way = [&](double x) { return bench.solver.joins({x, 0.9, 0.8}, {x, -0.9, 0.8}); };
+  const auto way = [&](double x) { return bench.solver.joins(Vector3(x, 0.9, 0.8), Vector3(x, -0.9, 0.8)); };
   CHECK(!way(0.12));
   CHECK(way(0.6));
 }

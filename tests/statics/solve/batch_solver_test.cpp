@@ -77,14 +77,14 @@ TEST_CASE(
   const auto answers = bench.solve(BatchQuestion::target, whole, requests);
   for (std::size_t k = 0; k < requests.size(); ++k) {
     REQUIRE(answers[k].solved);
-    const Pose wanted{bench.home().R, requests[k].p};
+    const Pose wanted{bench.home().R, requests[k].at.p};
     const NominalResult nominal = follow(bench.model, bench.model.home, wanted);
     const Equilibrium alone =
         solve_target(bench.model, nominal.configuration, wanted, {requests[k].F}, {}, bench.work);
     REQUIRE(alone.status == Status::converged);
     const NominalResult commanded = nominal_forward(
         bench.model, nominal.configuration, actuator_values(bench.model.mechanism, alone.configuration));
-    CHECK((tip(bench.model.mechanism, commanded.configuration).p - answers[k].command).norm() <=
+    CHECK((tip(bench.model.mechanism, commanded.configuration).p - answers[k].command.p).norm() <=
           answer_tolerance);
   }
 }
@@ -99,14 +99,17 @@ TEST_CASE(
     Random random(17);
     const Vector3 centre = bench.home().p;
     std::vector<BatchRequest> requests;
-    for (int i = 0; i < 6; ++i)
-      requests.push_back({centre + random.vector(0.02), random.six(50, 2), random.vector(0.1)});
+    for (int i = 0; i < 6; ++i) {
+      const Vector3 p = centre + random.vector(0.02);
+      const Vector6 F = random.six(50, 2);
+      requests.push_back({{p, random.vector(0.1)}, F});
+    }
     for (const BatchQuestion question : {BatchQuestion::target, BatchQuestion::forward}) {
       const auto answers = bench.solve(question, whole, requests);
       for (std::size_t k = 0; k < requests.size(); ++k) {
         if (!answers[k].solved) continue;
         ++solved;
-        const Pose command{exp_so3(requests[k].turn) * bench.home().R, answers[k].command};
+        const Pose command{exp_so3(requests[k].at.turn) * bench.home().R, answers[k].command.p};
         const NominalResult nominal = follow(bench.model, bench.model.home, command);
         REQUIRE(nominal.status == Status::converged);
         const Equilibrium alone =
@@ -116,11 +119,43 @@ TEST_CASE(
                   .cwiseAbs()
                   .maxCoeff() <= answer_tolerance);
         if (question == BatchQuestion::target)
-          CHECK((answers[k].X_MT.p - requests[k].p).norm() <= answer_tolerance);
+          CHECK((answers[k].X_MT.p - requests[k].at.p).norm() <= answer_tolerance);
       }
     }
   }
   CHECK(solved >= 34);  // of 36
+}
+
+TEST_CASE("batches: a command for a whole pose is that of the solver of single waypoints") {
+  int solved = 0;
+  for (const std::string name : {"hexapod_joint_springs", "serial6r_link6", "serial6r_joints"}) {
+    CAPTURE(name);
+    BatchBench bench(machine_of(name));
+    Random random(23);
+    const Vector3 centre = bench.home().p;
+    std::vector<BatchRequest> requests;
+    for (int i = 0; i < 8; ++i) {
+      const Vector3 p = centre + random.vector(0.02);
+      const Vector6 F = random.six(50, 2);
+      requests.push_back({{p, random.vector(i < 4 ? 0.1 : 0.5)}, F});
+    }
+    const auto answers = bench.solve(BatchQuestion::pose, whole, requests);
+    for (std::size_t k = 0; k < requests.size(); ++k) {
+      if (!answers[k].solved) continue;
+      ++solved;
+      const Pose wanted{exp_so3(requests[k].at.turn) * bench.home().R, requests[k].at.p};
+      const NominalResult nominal = follow(bench.model, bench.model.home, wanted);
+      const Equilibrium alone =
+          solve_target(bench.model, nominal.configuration, wanted, {requests[k].F}, {}, bench.work);
+      REQUIRE(alone.status == Status::converged);
+      const NominalResult commanded = nominal_forward(
+          bench.model, nominal.configuration, actuator_values(bench.model.mechanism, alone.configuration));
+      const Pose command = tip(bench.model.mechanism, commanded.configuration);
+      CHECK(deviation(answers[k].command, command).cwiseAbs().maxCoeff() <= answer_tolerance);
+      CHECK(deviation(answers[k].X_MT, wanted).cwiseAbs().maxCoeff() <= answer_tolerance);
+    }
+  }
+  CHECK(solved >= 20);  // of 24
 }
 
 TEST_CASE("batches: nominal tips are those of followed kinematics") {
@@ -130,9 +165,9 @@ TEST_CASE("batches: nominal tips are those of followed kinematics") {
     Random random(9);
     for (const BatchRequest& request : cluster(bench, batch_trial.trial, random, 3, 0.01)) {
       NominalAnswer answer;
-      bench.solver.nominal_tips({&request.p, 1}, {&answer, 1});
+      bench.solver.nominal_tips({&request.at, 1}, {&answer, 1});
       REQUIRE(answer.solved);
-      const NominalResult nominal = follow(bench.model, bench.model.home, {bench.home().R, request.p});
+      const NominalResult nominal = follow(bench.model, bench.model.home, {bench.home().R, request.at.p});
       REQUIRE(nominal.status == Status::converged);
       CHECK(deviation(answer.X_MT, tip(bench.model.mechanism, nominal.configuration)).norm() <=
             answer_tolerance);
@@ -145,16 +180,18 @@ TEST_CASE("batches: a machine that does not control x, y and z is not solved") {
        {machine_of("bar_buckling"), machine_of("two_chains_coupled"), machine_of("arm")}) {
     CAPTURE(machine.name);
     BatchBench bench(machine);
-    const BatchRequest at_home{bench.home().p, Vector6::Zero()};
+    const BatchRequest at_home{{bench.home().p}, Vector6::Zero()};
     CHECK(!bench.solve(BatchQuestion::forward, whole, {at_home})[0].solved);
-    CHECK(bench.solver.nominal_near(at_home.p) == nullptr);
+    CHECK(bench.solver.nominal_near(at_home.at) == nullptr);
   }
 }
 
 TEST_CASE("batches: a place outside of travel, or out of reach, is not solved") {
   BatchBench mill(sample_machine("mill3/machine"));
   const Vector3 inside(0.2, 0.12, mill.home().p.z() - 0.1);
-  const auto at_x = [&](double x) { return BatchRequest{{x, inside.y(), inside.z()}, Vector6::Zero()}; };
+  const auto at_x = [&](double x) {
+    return BatchRequest{{Vector3(x, inside.y(), inside.z())}, Vector6::Zero()};
+  };
   const auto answers =
       mill.solve(BatchQuestion::forward, whole, {at_x(0.3999), at_x(0.4001), at_x(-0.0001), at_x(0.0001)});
   CHECK(answers[0].solved);
@@ -163,5 +200,6 @@ TEST_CASE("batches: a place outside of travel, or out of reach, is not solved") 
   CHECK(answers[3].solved);
   BatchBench orthoglide(machine_of("orthoglide_case_b"));
   for (const double x : {0.9, -0.9, 1e3})
-    CHECK(!orthoglide.solve(BatchQuestion::forward, whole, {{Vector3(x, 0, 0), Vector6::Zero()}})[0].solved);
+    CHECK(
+        !orthoglide.solve(BatchQuestion::forward, whole, {{{Vector3(x, 0, 0)}, Vector6::Zero()}})[0].solved);
 }

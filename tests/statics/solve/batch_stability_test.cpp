@@ -69,7 +69,7 @@ void try_cluster(BatchBench& bench, const std::vector<BatchRequest>& requests, T
       if (answers[k].solved)
         check_answer(bench, question, whole, requests[k], answers[k], 1e-9);
       else if (question == BatchQuestion::forward)
-        tally.refused += bench.alone(requests[k].p, requests[k].F, whole).status != Status::converged;
+        tally.refused += bench.alone(requests[k].at.p, requests[k].F, whole).status != Status::converged;
       tally.solved += answers[k].solved;
     }
   }
@@ -105,7 +105,7 @@ TEST_CASE("batches: what is solved converges alone, beside a singularity and out
     for (double far = 0.2; far < 4; far *= 1.6) {
       std::vector<BatchRequest> requests;
       for (int i = 0; i < 3; ++i)
-        requests.push_back({bench.home().p + far * way + random.vector(0.005), random.six(100, 5)});
+        requests.push_back({{bench.home().p + far * way + random.vector(0.005)}, random.six(100, 5)});
       try_cluster(bench, requests, tally);
     }
     CHECK(tally.refused > 0);
@@ -124,7 +124,7 @@ TEST_CASE(
       CAPTURE(part);
       Vector6 F = Vector6::Zero();
       F.head<3>() = -part * critical_load(at_home + rho) * along_strut;
-      try_cluster(bench, {{bench.home().p + rho * along_strut, F}}, tally);
+      try_cluster(bench, {{{bench.home().p + rho * along_strut}, F}}, tally);
     }
   CHECK(tally.solved > 50);
   CHECK(tally.refused > 200);

@@ -83,7 +83,7 @@ inline std::vector<BatchRequest> cluster(const BatchBench& bench, const Trial& t
   std::vector<BatchRequest> requests;
   for (int i = 0; i < count; ++i)
     requests.push_back(
-        {centre + random.vector(extent), random.six(strength * trial.force, strength * trial.moment)});
+        {{centre + random.vector(extent)}, random.six(strength * trial.force, strength * trial.moment)});
   return requests;
 }
 
@@ -94,18 +94,18 @@ inline void check_answer(BatchBench& bench, BatchQuestion question, const Stage&
   CAPTURE(target);
   CAPTURE(stage.errors);
   CAPTURE(stage.gravity);
-  CAPTURE(request.p);
+  CAPTURE(request.at.p);
   CAPTURE(request.F);
-  const Equilibrium alone = bench.alone(answer.command, request.F, stage);
+  const Equilibrium alone = bench.alone(answer.command.p, request.F, stage);
   CAPTURE(to_string(alone.status));
   CHECK(alone.status == Status::converged);
   if (alone.status != Status::converged) return;
   const Vector6 miss = deviation(answer.X_MT, tip(bench.model.mechanism, alone.configuration));
   CHECK(miss.cwiseAbs().maxCoeff() <= tolerance);
   if (target)
-    CHECK((answer.X_MT.p - request.p).norm() <= tolerance);
+    CHECK((answer.X_MT.p - request.at.p).norm() <= tolerance);
   else
-    CHECK(answer.command == request.p);
+    CHECK(answer.command.p == request.at.p);
 }
 
 }  // namespace counterflex::laws

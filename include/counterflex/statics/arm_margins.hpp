@@ -1,0 +1,22 @@
+#pragma once
+/// How far a six-axis arm is from the poses at which its configuration changes.
+#include <optional>
+#include <string>
+
+#include "counterflex/statics/nominal.hpp"
+
+namespace counterflex {
+
+/// An angle (rad, 0 to pi/2) to the pose in which two configurations of an arm meet.
+struct ArmMargin {
+  double angle = 0;
+  const char* what = "";  ///< "wrist: axes A4 and A6 are in line"
+};
+
+/// The least of three: the wrist (axes 4 and 6 in line), the elbow (the wrist centre in line with axes 2 and
+/// 3, the arm stretched or folded) and the shoulder (the wrist centre on axis 1). None for a machine that is
+/// not one chain of six rotary actuators of which the last three meet in a point, and none where it is
+/// `singular`. `nominal`: a nominal configuration.
+std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal);
+
+}  // namespace counterflex

@@ -1,0 +1,75 @@
+#include "counterflex/statics/arm_margins.hpp"
+
+#include <Eigen/Geometry>
+#include <algorithm>
+#include <array>
+#include <cmath>
+
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double meets = 1e-6;  // of the machine's length: three axes have one point
+
+// The axis of a rotary joint: a unit vector, and a point from the tip (m).
+struct Line {
+  Vector3 axis, point;
+};
+
+bool is_arm(const Mechanism& mechanism) {
+  return mechanism.chains.size() == 1 && mechanism.controlled.size() == 6 && mechanism.travel.size() == 6 &&
+         std::all_of(mechanism.travel.begin(), mechanism.travel.end(),
+                     [](const Travel& travel) { return travel.kind == JointKind::revolute; });
+}
+
+// A joint at the point q turns the tip by its axis w and moves it by v = w x (tip - q): so w x v leads from
+// the tip to the axis.
+std::array<Line, 6> axes_of(const Eigen::MatrixXd& J) {
+  std::array<Line, 6> lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    const Vector6 twist = J.col(static_cast<Eigen::Index>(i));
+    lines[i].axis = twist.tail<3>().normalized();
+    lines[i].point = lines[i].axis.cross(Vector3(twist.head<3>()));
+  }
+  return lines;
+}
+
+// The point of line `a` that is nearest to line `b`, which is not parallel to it.
+Vector3 nearest_point(const Line& a, const Line& b) {
+  const Vector3 across = a.axis.cross(b.axis), way = b.point - a.point;
+  return a.point + a.axis * (way.cross(b.axis).dot(across) / across.squaredNorm());
+}
+
+Vector3 to_line(const Vector3& from, const Line& line) {
+  const Vector3 way = line.point - from;
+  return way - way.dot(line.axis) * line.axis;
+}
+
+// Between two directions, from the nearer of parallel and opposite.
+double angle_from_line(const Vector3& a, const Vector3& b) {
+  return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
+}
+
+}  // namespace
+
+std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal) {
+  if (!is_arm(model.mechanism)) return std::nullopt;
+  const std::array<Line, 6> axes = axes_of(actuator_jacobian(model, nominal).J);
+  const Vector3 centre = nearest_point(axes[4], axes[3]);
+  for (const std::size_t i : {3u, 5u})
+    if (!(to_line(centre, axes[i]).norm() < meets * model.mechanism.length)) return std::nullopt;
+  const Vector3 &a2 = axes[1].axis, to_2 = to_line(centre, axes[1]), to_3 = to_line(centre, axes[2]);
+  const auto in_plane = [&](const Vector3& v) { return Vector3(v - v.dot(a2) * a2); };
+  const Vector3 forearm = in_plane(to_3), upper_arm = in_plane(to_2) - forearm;
+  const double reach = forearm.norm() + upper_arm.norm();
+  const std::array margins{
+      ArmMargin{angle_from_line(axes[3].axis, axes[5].axis), "wrist: axes A4 and A6 are in line"},
+      ArmMargin{angle_from_line(forearm, upper_arm), "elbow: the arm is stretched or folded"},
+      ArmMargin{std::atan2(to_line(centre, axes[0]).norm(), reach),
+                "shoulder: the centre of the wrist is on axis A1"}};
+  return *std::min_element(margins.begin(), margins.end(),
+                           [](const ArmMargin& a, const ArmMargin& b) { return a.angle < b.angle; });
+}
+
+}  // namespace counterflex

@@ -1,0 +1,288 @@
+// Programs that turn the tool of a six-axis machine: position and orientation are corrected. What the machine
+// does is judged by an arm of this test's own: products of homogeneous matrices, joints that give way by the
+// moment about them. It shares nothing with the product's statics.
+#include <doctest/doctest.h>
+
+#include <Eigen/Geometry>
+#include <Eigen/LU>
+#include <array>
+#include <cmath>
+
+#include "compensation/support/shop.hpp"
+#include "counterflex/program/rewrite.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+using Matrix4 = Eigen::Matrix4d;
+
+Matrix4 turn_about(int axis, double angle) {
+  Matrix4 T = Matrix4::Identity();
+  T.topLeftCorner<3, 3>() = Eigen::AngleAxisd(angle, Vector3::Unit(axis)).toRotationMatrix();
+  return T;
+}
+
+Matrix4 shift(double x, double y, double z) {
+  Matrix4 T = Matrix4::Identity();
+  T.topRightCorner<3, 1>() = Vector3(x, y, z);
+  return T;
+}
+
+/// The arm of tests/statics/data/serial6r_joints.toml, its tool turned by -90 degrees about y.
+struct Arm {
+  using Joints = Eigen::Matrix<double, 6, 1>;
+  const std::array<int, 6> axes{2, 1, 1, 0, 1, 0};
+  const Joints compliance = (Joints() << 0.25, 0.302, 0.406, 3.002, 3.303, 2.365).finished() * 1e-6;
+  const Joints home = (Joints() << 0, -78, 108, 0, 60, 0).finished() * deg;
+  bool perfect = false;
+
+  /// Frames behind each joint, then the tip.
+  std::array<Matrix4, 7> frames(const Joints& q) const {
+    const double lean = perfect ? 0 : 0.02 * deg, offset = perfect ? 0 : 0.05 * deg;
+    const std::array<Matrix4, 6> links{shift(0.350, 0, 0.675) * turn_about(1, offset),
+                                       shift(1.150, 0, 0),
+                                       shift(1.200, 0, -0.041),
+                                       Matrix4::Identity(),
+                                       Matrix4::Identity(),
+                                       shift(0.215 + 0.250, 0, 0.120) * turn_about(1, -90 * deg)};
+    std::array<Matrix4, 7> all;
+    Matrix4 T = turn_about(1, lean);
+    for (std::size_t i = 0; i < 6; ++i) {
+      T = T * turn_about(axes[i], q[static_cast<Eigen::Index>(i)]);
+      all[i] = T;
+      T = T * links[i];
+    }
+    all[6] = T;
+    return all;
+  }
+
+  /// The joints at which the perfect arm has that tip: Newton's method on its frames.
+  Joints inverse(const Matrix4& wanted) const {
+    const Arm rigid{.perfect = true};
+    Joints q = home;
+    for (int k = 0; k < 60; ++k) {
+      const auto all = rigid.frames(q);
+      Eigen::Matrix<double, 6, 1> miss;
+      miss.head<3>() = wanted.topRightCorner<3, 1>() - all[6].topRightCorner<3, 1>();
+      const Eigen::AngleAxisd turn(
+          Matrix3(wanted.topLeftCorner<3, 3>() * all[6].topLeftCorner<3, 3>().transpose()));
+      miss.tail<3>() = turn.angle() * turn.axis();
+      if (miss.norm() < 1e-14) break;
+      Eigen::Matrix<double, 6, 6> J;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const Vector3 axis = all[i].topLeftCorner<3, 3>() * Vector3::Unit(axes[i]),
+                      arm = all[6].topRightCorner<3, 1>() - all[i].topRightCorner<3, 1>();
+        J.col(static_cast<Eigen::Index>(i)) << axis.cross(arm), axis;
+      }
+      Joints step = J.partialPivLu().solve(miss);
+      if (step.norm() > 0.3) step *= 0.3 / step.norm();
+      q += step;
+    }
+    return q;
+  }
+
+  /// Where the real arm has its tip when that pose is commanded, under the wrench `F` at the tip.
+  Matrix4 tip(const Matrix4& commanded, const Vector6& F) const {
+    const Joints q = inverse(commanded);
+    Joints given = Joints::Zero();
+    for (int k = 0; k < 100; ++k) {
+      const auto all = frames(q + given);
+      Joints next;
+      for (std::size_t i = 0; i < 6; ++i) {
+        const auto row = static_cast<Eigen::Index>(i);
+        const Vector3 axis = all[i].topLeftCorner<3, 3>() * Vector3::Unit(axes[i]),
+                      arm = all[6].topRightCorner<3, 1>() - all[i].topRightCorner<3, 1>();
+        next[row] = compliance[row] * axis.dot(F.tail<3>() + arm.cross(F.head<3>()));
+      }
+      if ((next - given).norm() < 1e-16) break;
+      given = next;
+    }
+    return frames(q + given)[6];
+  }
+};
+
+Matrix4 homogeneous(const Vector3& p, const Matrix3& R) {
+  Matrix4 T = Matrix4::Identity();
+  T.topLeftCorner<3, 3>() = R;
+  T.topRightCorner<3, 1>() = p;
+  return T;
+}
+
+Matrix3 rotation_of_words(const Vector3& abc_deg) {
+  return (turn_about(2, abc_deg.z() * deg) * turn_about(1, abc_deg.y() * deg) *
+          turn_about(0, abc_deg.x() * deg))
+      .topLeftCorner<3, 3>();
+}
+
+double angle_between(const Matrix3& a, const Matrix3& b) {
+  return Eigen::AngleAxisd(Matrix3(a * b.transpose())).angle();
+}
+
+Machine arm_machine() {
+  const std::string text =
+      replaced(read_file(robot), "xyz_mm = [250, 0, 120]", "xyz_mm = [250, 0, 120]\nrpy_deg = [0, -90, 0]");
+  return read_machine(text, "arm.toml");
+}
+
+constexpr char turning[] =
+    "G21 G90 G17 G94\n"
+    "G0 X-20 Y-10 Z40 A0 B0 C0\n"
+    "G0 Z5\n"
+    "G1 Z0 F500\n"
+    "X100 A12 B-8 F1500\n"
+    "X140 Y60 A-10 B10 C40\n"
+    "G3 X120 Y80 I-20 J0 C60\n"
+    "G1 A5 (turns in place)\n"
+    "X0 Y0 Z10 A0 B0 C-20\n"
+    "G0 Z40\n"
+    "M30\n";
+
+const Vector3 corner(1.75, 0.05, 0.6);
+
+Order turning_order(const std::string& text = turning) {
+  Order order{.machine = arm_machine(), .text = text};
+  order.force = constant_force((Vector6() << 120, -300, -80, 2, 5, -3).finished());
+  order.max_correction = 20e-3;
+  order.X_MW = translation(corner);
+  order.read.dialect = "linuxcnc";
+  order.read.tool_orientation = true;
+  return order;
+}
+
+}  // namespace
+
+TEST_CASE("the tip of the product is that of an independent arm, before and after, at every waypoint") {
+  const Shop shop(turning_order());
+  const Compensation result = compensated(shop);
+  const Arm arm;
+  int judged = 0;
+  double largest_before = 0;
+  for (const Waypoint& w : result.waypoints) {
+    REQUIRE(w.R_MT);
+    CAPTURE(w.line);
+    CAPTURE(w.fraction);
+    const Matrix3 R_command = *commanded_orientation(w);
+    const Matrix4 after = arm.tip(homogeneous(w.p_MT + w.correction.head<3>(), R_command), w.wrench),
+                  before = arm.tip(homogeneous(w.p_MT, *w.R_MT), w.wrench);
+    const Vector3 after_shift = after.topRightCorner<3, 1>() - w.p_MT,
+                  before_shift = before.topRightCorner<3, 1>() - w.p_MT;
+    CHECK((after_shift - w.after.head<3>()).norm() < 1e-9);
+    CHECK(std::abs(angle_between(after.topLeftCorner<3, 3>(), *w.R_MT) - w.after.tail<3>().norm()) < 1e-8);
+    if (knows_before(w)) {
+      CHECK((before_shift - w.before.head<3>()).norm() < 1e-9);
+      largest_before = std::max(largest_before, before_shift.norm());
+    }
+    ++judged;
+  }
+  CHECK(judged > 100);
+  CHECK(largest_before > 0.5e-3);
+}
+
+TEST_CASE("the written program leads the independent arm along the path, in the orientation of each place") {
+  const Order order = turning_order();
+  const Shop shop(order);
+  const Compensation result = compensated(shop);
+  const Arm arm;
+  const Program written = read_program(result.text, "out.ngc", order.read);
+  REQUIRE(written.left_alone.empty());
+  // The original's ends, in their order, and each moves' end in the corrected program.
+  std::size_t next = 0;
+  int ends = 0;
+  for (const Move& original : shop.program.moves) {
+    const Vector3 p = corner + original.end_mm * mm;
+    const Matrix3 R = rotation_of_words(
+        {original.orientation->end[0], original.orientation->end[1], original.orientation->end[2]});
+    const Vector6 F = original.motion == Motion::feed
+                          ? Vector6((Vector6() << 120, -300, -80, 2, 5, -3).finished())
+                          : Vector6(Vector6::Zero());
+    double best = HUGE_VAL, turned = HUGE_VAL;
+    for (std::size_t k = next; k < std::min(next + 12, written.moves.size()); ++k) {
+      const Move& move = written.moves[k];
+      const auto& abc = move.orientation->end;
+      const Matrix4 tip =
+          arm.tip(homogeneous(corner + move.end_mm * mm, rotation_of_words({abc[0], abc[1], abc[2]})), F);
+      const double miss = (tip.topRightCorner<3, 1>() - p).norm(),
+                   turn = angle_between(tip.topLeftCorner<3, 3>(), R);
+      if (miss + turn >= best + turned) continue;
+      best = miss, turned = turn, next = k;
+    }
+    CAPTURE(original.line);
+    CHECK(best < 5e-6);
+    CHECK(turned < 0.02 * deg);
+    ++ends;
+  }
+  CHECK(ends == 9);
+}
+
+TEST_CASE("a perfect arm leaves every byte of a program that turns the tool") {
+  Order order = turning_order();
+  const std::string text =
+      replaced(replaced(read_file(robot), "errors.base = { rpy_deg = [0, 0.02, 0] }", ""),
+               "errors.joint_2 = { rpy_deg = [0, 0.05, 0] }", "");
+  order.machine = read_machine(
+      replaced(replaced(replaced(text, "{ error = \"base\" },", ""), "{ error = \"joint_2\" },", ""),
+               "xyz_mm = [250, 0, 120]", "xyz_mm = [250, 0, 120]\nrpy_deg = [0, -90, 0]"),
+      "perfect.toml");
+  order.force = {};
+  CHECK(compensated(Shop(order)).text == turning);
+}
+
+TEST_CASE("batches and single solves give the same text where the tool turns") {
+  Order order = turning_order();
+  const std::string text = compensated(Shop(order)).text;
+  order.in_batches = false;
+  CHECK(compensated(Shop(order)).text == text);
+}
+
+TEST_CASE("verification finds a tilt, a spin where it is asked for, and an orientation of another line") {
+  const Order order = turning_order();
+  Shop shop(order);
+  const std::string text = compensated(shop).text;
+  const auto verdict = [&](const std::string& changed) {
+    return verify(shop.job(), read_program(changed, "out.ngc", order.read), false).failure;
+  };
+  const Program written = read_program(text, "out.ngc", order.read);
+  CHECK(!verdict(text));
+  const auto with_angle = [&](std::size_t angle, double change_deg) {
+    std::vector<MoveEdit> edits;
+    for (std::size_t m = 0; m < written.moves.size(); ++m) {
+      const Move& move = written.moves[m];
+      MoveEdit edit{.move = m, .end_mm = move.end_mm, .orientation = move.orientation->end};
+      if (move.arc) edit.centre_mm = move.arc->centre_mm;
+      (*edit.orientation)[angle] += change_deg;
+      edits.push_back(edit);
+    }
+    return rewrite(written, edits, {}).text;
+  };
+  CHECK(!verdict(with_angle(0, 0.004)));
+  const auto tilted = verdict(with_angle(0, 0.05));
+  REQUIRE(tilted);
+  CHECK(tilted->what.find("tilted") != std::string::npos);
+  CHECK(verdict(with_angle(1, -0.05)));
+  CHECK(verdict(with_angle(2, 90)));  // degrees for something else
+  CHECK(verdict(with_angle(0, 180)));
+}
+
+TEST_CASE("a turn about the tool's axis is judged only where its tolerance is given") {
+  // A cutter that stands along Z: C turns it about its own axis.
+  const std::string upright = "G21 G90 G94\nG0 X0 Y0 Z20 A0 B0 C0\nG1 Z0 F300\nX50 C30\nM30\n";
+  Order order = turning_order(upright);
+  Shop shop(order);
+  const std::string text = compensated(shop).text;
+  Program written = read_program(text, "out.ngc", order.read);
+  std::vector<MoveEdit> edits;
+  for (std::size_t m = 0; m < written.moves.size(); ++m) {
+    const Move& move = written.moves[m];
+    MoveEdit edit{.move = m, .end_mm = move.end_mm, .orientation = move.orientation->end};
+    (*edit.orientation)[2] += 0.002;  // the tip is on the axis, so it stays
+    edits.push_back(edit);
+  }
+  const Program spun = read_program(rewrite(written, edits, {}).text, "out.ngc", order.read);
+  CHECK(!verify(shop.job(), spun, false).failure);
+  shop.options.spin_tolerance = 0.001 * deg;
+  const auto failure = verify(shop.job(), spun, false).failure;
+  REQUIRE(failure);
+  CHECK(failure->what.find("about its axis") != std::string::npos);
+}
