@@ -69,6 +69,30 @@ Numbers rotation_vector_of(const Matrix3& R, const Numbers& near) {
   return {nearest * axis.x(), nearest * axis.y(), nearest * axis.z(), 0};
 }
 
+// Half a turn about X for -Z, where the axis of the smallest rotation is not determined.
+Matrix3 rotation_of_axis(const Vector3& axis) {
+  const Vector3 z = axis.isZero(0) ? Vector3::UnitZ() : axis.stableNormalized();
+  const Vector3 normal = Vector3::UnitZ().cross(z);
+  const double sine = normal.norm();
+  if (sine == 0) return z.z() > 0 ? Matrix3::Identity() : exp_so3(pi * Vector3::UnitX());
+  return exp_so3(std::atan2(sine, z.z()) / sine * normal);
+}
+
+Numbers axis_of(const Matrix3& R, const Numbers& near) {
+  const double length = first_three(near).stableNorm();
+  const Vector3 axis = (length > 0 ? length : 1) * R.col(2);
+  return {axis.x(), axis.y(), axis.z(), 0};
+}
+
+// The axis at fraction u of the way from `start` to `end`, in the plane of both.
+Vector3 axis_between(const Vector3& start, const Vector3& end, double u) {
+  const Vector3 normal = start.cross(end);
+  const double sine = normal.norm();
+  if (sine == 0 && start.dot(end) > 0) return start;
+  const Vector3 about = sine > 0 ? Vector3(normal / sine) : start.unitOrthogonal();
+  return exp_so3(u * std::atan2(sine, start.dot(end)) * about) * start;
+}
+
 Matrix3 rotation_of_angles(const Vector3& angles_deg) {
   return from_rpy(angles_deg * deg);
 }
@@ -87,6 +111,8 @@ Matrix3 rotation_of(OrientationForm form, const OrientationNumbers& numbers) {
       return from_quaternion({numbers[0], numbers[1], numbers[2], numbers[3]});
     case OrientationForm::rotation_vector:
       return exp_so3(first_three(numbers));
+    case OrientationForm::axis:
+      return rotation_of_axis(first_three(numbers));
   }
   return Matrix3::Identity();
 }
@@ -99,6 +125,8 @@ OrientationNumbers numbers_of(OrientationForm form, const Matrix3& R, const Orie
       return quaternion_of(R, near);
     case OrientationForm::rotation_vector:
       return rotation_vector_of(R, near);
+    case OrientationForm::axis:
+      return axis_of(R, near);
   }
   return near;
 }
@@ -108,6 +136,9 @@ Matrix3 orientation_at(const Turn& turn, double u) {
   if (u == 1) return turn.end;
   if (const auto& angles = turn.angles)
     return angles->outer * rotation_of_angles(angles->start_deg + u * (angles->end_deg - angles->start_deg));
+  if (const auto& outer = turn.axis_in)
+    return *outer *
+           rotation_of_axis(outer->transpose() * axis_between(turn.start.col(2), turn.end.col(2), u));
   return exp_so3(u * rotation_between(turn.end, turn.start)) * turn.start;
 }
 
@@ -126,8 +157,9 @@ double angle_of(const Turn& turn) {
 }
 
 Turn operator*(const Matrix3& R_AB, const Turn& turn) {
-  Turn turned{R_AB * turn.start, R_AB * turn.end, turn.angles};
+  Turn turned{R_AB * turn.start, R_AB * turn.end, turn.angles, turn.axis_in};
   if (turned.angles) turned.angles->outer = R_AB * turned.angles->outer;
+  if (turned.axis_in) turned.axis_in = R_AB * *turned.axis_in;
   return turned;
 }
 

@@ -4,9 +4,13 @@
 #include <utility>
 
 #include "counterflex/program/program_reader.hpp"
+#include "program/apt/reader.hpp"
 #include "program/gcode/line_reader.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/klartext/reader.hpp"
+#include "program/kuka/reader.hpp"
+#include "program/rapid/reader.hpp"
+#include "program/ur/reader.hpp"
 
 namespace counterflex {
 namespace {
@@ -68,6 +72,7 @@ void BlockReader::take_window(Program& to) {
   to.frames = program_.frames;
   to.operations = program_.operations;
   to.operation_titles = program_.operation_titles;
+  to.external_axes_move = program_.external_axes_move;
   to.block_count = program_.block_count;
   to.evaluated = program_.evaluated;
   to.expansion = program_.expansion;
@@ -84,6 +89,13 @@ std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOpti
                                          const Dialect& dialect, Outline outline) {
   if (dialect.name == klartext_name)
     return std::make_unique<KlartextReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == kuka_name)
+    return std::make_unique<KukaReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == abb_name)
+    return std::make_unique<RapidReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == ur_name) return std::make_unique<UrReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == apt_name)
+    return std::make_unique<AptReader>(file, options, dialect, std::move(outline));
   return std::make_unique<LineReader>(file, options, dialect, std::move(outline));
 }
 

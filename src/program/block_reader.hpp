@@ -45,7 +45,9 @@ class BlockReader {
   virtual bool may_end_before(const Move& last, bool anywhere) const = 0;
 
   /// Whether the text can only be read as one window.
-  bool is_read_whole() const { return options_.expand_subprograms || !outline_.klartext.poles.empty(); }
+  bool is_read_whole() const {
+    return options_.expand_subprograms || !outline_.klartext.poles.empty() || outline_.named_targets;
+  }
 
   /// Adds a remark, once, if `text` behind the program's end is not empty.
   void remark_rest(std::string_view text);

@@ -2,6 +2,8 @@
 
 #include <array>
 
+#include "counterflex/program/read_program.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -74,7 +76,17 @@ constexpr Dialect heidenhain{.name = klartext_name,
                              .radius_room = {0.016},
                              .radius_room_inch = {0.016}};
 
-constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain};
+/// Robot languages.
+constexpr Dialect robot_language(std::string_view name) {
+  return {.name = name, .robot = true, .family = 0};
+}
+constexpr Dialect kuka = robot_language(kuka_name);
+constexpr Dialect abb = robot_language(abb_name);
+constexpr Dialect ur = robot_language(ur_name);
+constexpr Dialect apt = robot_language(apt_name);
+
+constexpr std::array dialects{&linuxcnc,   &grbl, &fanuc, &haas, &mach3, &siemens,
+                              &heidenhain, &kuka, &abb,   &ur,   &apt};
 
 }  // namespace
 
@@ -82,6 +94,11 @@ const Dialect* find_dialect(std::string_view name) {
   for (const Dialect* dialect : dialects)
     if (dialect->name == name) return dialect;
   return nullptr;
+}
+
+bool is_robot_dialect(const std::string& dialect) {
+  const Dialect* found = find_dialect(dialect);
+  return found != nullptr && found->robot;
 }
 
 std::string dialect_names() {

@@ -37,6 +37,7 @@ inline bool radii_agree(const RadiusRoom& room, double start_mm, double end_mm) 
 
 struct Dialect {
   std::string_view name;
+  bool robot = false;  ///< a robot language, which has its own reader; no other member applies
   unsigned family = linuxcnc_family;
   std::size_t line_limit = 0;         ///< characters of a line; 0: no limit is known
   bool limit_counts_comments = true;  ///< whether blanks and comments count
@@ -67,6 +68,9 @@ struct Dialect {
 /// The name of Heidenhain Klartext, which is not G-code.
 inline constexpr std::string_view klartext_name = "heidenhain";
 
+/// The names of robot languages: KUKA KRL, ABB RAPID, URScript of Universal Robots, APT.
+inline constexpr std::string_view kuka_name = "kuka", abb_name = "abb", ur_name = "ur", apt_name = "apt";
+
 inline constexpr char comment_open = '(';
 inline constexpr char comment_close = ')';
 
@@ -76,14 +80,17 @@ const Dialect* find_dialect(std::string_view name);
 /// Names for diagnostics, with commas.
 std::string dialect_names();
 
-/// Digits after the decimal point of the resolution: 0.001 mm, 0.0001 inch.
+/// Digits after the decimal point of the resolution: 0.001 mm, 0.0001 inch, 0.000001 m.
 constexpr int resolution_decimals(LengthUnit unit) {
-  return unit == LengthUnit::millimetres ? 3 : 4;
-}
-
-/// Length of a unit in mm.
-constexpr double mm_per(LengthUnit unit) {
-  return unit == LengthUnit::millimetres ? 1.0 : 25.4;
+  switch (unit) {
+    case LengthUnit::millimetres:
+      return 3;
+    case LengthUnit::inches:
+      return 4;
+    case LengthUnit::metres:
+      return 6;
+  }
+  return 3;
 }
 
 /// Converts a length (mm) to its unit.

@@ -10,8 +10,11 @@ Vector3 angles_of(const OrientationNumbers& numbers) {
 }  // namespace
 
 Turn turn_of(const MoveOrientation& orientation) {
-  Turn turn{
-      rotation_of(orientation.form, orientation.start), rotation_of(orientation.form, orientation.end), {}};
+  Turn turn{rotation_of(orientation.form, orientation.start),
+            rotation_of(orientation.form, orientation.end),
+            {},
+            {}};
+  if (orientation.form == OrientationForm::axis) turn.axis_in = Matrix3::Identity();
   if (orientation.by_angles)
     turn.angles = Turn::Angles{Matrix3::Identity(), angles_of(orientation.start), angles_of(orientation.end)};
   return turn;

@@ -2,6 +2,8 @@
 
 #include <algorithm>
 
+#include "program/apt/lex.hpp"
+#include "program/kuka/names.hpp"
 #include "program/siemens/signs.hpp"
 #include "program/text/scanner.hpp"
 
@@ -69,13 +71,21 @@ bool jumps_in(std::string_view lines) {
 }  // namespace
 
 bool OutlineScan::may_find() const {
-  return dialect_.sinumerik_words || dialect_.name == klartext_name ||
+  return dialect_.sinumerik_words || dialect_.name == klartext_name || dialect_.robot ||
          (dialect_.family & (shop_families | mach3_family)) != 0;
 }
 
 void OutlineScan::add(std::string_view blocks) {
   if (dialect_.name == klartext_name)
     klartext_.add(blocks);
+  else if (dialect_.name == kuka_name)
+    outline_.named_targets = outline_.named_targets || names_targets(blocks);
+  else if (dialect_.name == abb_name)
+    rapid_.add(blocks);
+  else if (dialect_.name == ur_name)
+    outline_.named_targets = true;  // blend radii depend on the moves beside them, too
+  else if (dialect_.name == apt_name)
+    outline_.tool_axes = outline_.tool_axes || gives_tool_axes(blocks);
   else
     add_numbered(blocks);
 }
@@ -108,6 +118,7 @@ Outline OutlineScan::finish() {
   // A single program that ends with M99 repeats itself. It is not a subprogram.
   if (outline_.subprograms.size() < 2) outline_.subprograms.assign(outline_.subprograms.size(), false);
   outline_.klartext = klartext_.finish();
+  outline_.named_targets = outline_.named_targets || rapid_.depends_on_far_lines();
   return std::move(outline_);
 }
 

@@ -6,6 +6,7 @@
 
 #include "program/dialect.hpp"
 #include "program/klartext/labels.hpp"
+#include "program/rapid/module.hpp"
 
 namespace counterflex {
 
@@ -14,6 +15,9 @@ struct Outline {
   /// For each line that begins with an O-number: whether M99 ends its program.
   std::vector<bool> subprograms;
   KlartextOutline klartext{};
+  /// A robot program gives targets or other data names: moves depend on lines far from them.
+  bool named_targets = false;
+  bool tool_axes = false;  ///< an APT program gives tool axes: GOTO/ with six numbers
 };
 
 /// Scans a text once, in portions of whole blocks. Finds nothing in dialects of G-code without numbered
@@ -33,6 +37,7 @@ class OutlineScan {
   bool begun_ = false;
   Outline outline_;
   KlartextScan klartext_;
+  RapidScan rapid_;
   std::size_t open_ = 0;  ///< number of programs at the end of the list that have not ended yet
 };
 

@@ -4,6 +4,7 @@
 #include <cmath>
 #include <utility>
 
+#include "program/apt/lex.hpp"
 #include "program/block_reader.hpp"
 #include "program/detect/choose_dialect.hpp"
 #include "program/klartext/lex.hpp"
@@ -34,7 +35,9 @@ std::size_t end_of_blocks(std::string_view text, std::size_t from, const Dialect
   for (std::size_t end = text.size(); end > from;) {
     const std::size_t newline = text.rfind('\n', end - 1);
     if (newline == std::string_view::npos || newline < from) return 0;
-    if (dialect.name != klartext_name || !continues_behind(text, newline)) return newline + 1;
+    const bool continues = (dialect.name == klartext_name && continues_behind(text, newline)) ||
+                           (dialect.name == apt_name && apt_continues_behind(text, newline));
+    if (!continues) return newline + 1;
     end = newline;
   }
   return 0;
@@ -54,6 +57,8 @@ void shift_spans(Move& move, std::ptrdiff_t bytes) {
   };
   shift(move.block);
   for (auto& word : move.words) shift_word(word);
+  if (move.orientation)
+    for (auto& word : move.orientation->words) shift_word(word);
   if (move.arc) {
     for (auto& word : move.arc->centre_words) shift_word(word);
     shift_word(move.arc->radius_word);

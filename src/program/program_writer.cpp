@@ -1,13 +1,21 @@
 #include "program/program_writer.hpp"
 
+#include "program/apt/writer.hpp"
 #include "program/dialect.hpp"
 #include "program/klartext/write/writer.hpp"
+#include "program/kuka/writer.hpp"
+#include "program/rapid/writer.hpp"
+#include "program/ur/writer.hpp"
 #include "program/write/gcode_writer.hpp"
 
 namespace counterflex {
 
 std::unique_ptr<ProgramWriter> make_writer(const Program& window, const WriteOptions& options) {
   if (window.dialect == klartext_name) return std::make_unique<KlartextWriter>(window, options);
+  if (window.dialect == kuka_name) return std::make_unique<KukaWriter>(window, options);
+  if (window.dialect == abb_name) return std::make_unique<RapidWriter>(window, options);
+  if (window.dialect == ur_name) return std::make_unique<UrWriter>(window, options);
+  if (window.dialect == apt_name) return std::make_unique<AptWriter>(window, options);
   return std::make_unique<GcodeWriter>(window, options);
 }
 

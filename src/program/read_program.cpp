@@ -1,11 +1,16 @@
 #include "counterflex/program/read_program.hpp"
 
+#include "program/apt/lex.hpp"
 #include "program/block_reader.hpp"
 #include "program/detect/choose_dialect.hpp"
 #include "program/expand/expand.hpp"
 #include "program/klartext/expand.hpp"
 #include "program/klartext/reader.hpp"
+#include "program/kuka/lex.hpp"
+#include "program/rapid/lex.hpp"
+#include "program/robot/reader.hpp"
 #include "program/text/operation.hpp"
+#include "program/ur/lex.hpp"
 
 namespace counterflex {
 
@@ -29,6 +34,10 @@ Program read_program(std::string text, const std::string& file, const ReadOption
 
 bool is_corrected(const Program& program) {
   if (program.dialect == klartext_name) return is_corrected_klartext(program.text);
+  if (program.dialect == kuka_name) return is_corrected_robot_program(program.text, krl_comment);
+  if (program.dialect == abb_name) return is_corrected_robot_program(program.text, rapid_comment);
+  if (program.dialect == ur_name) return is_corrected_robot_program(program.text, ur_comment);
+  if (program.dialect == apt_name) return is_corrected_robot_program(program.text, apt_comment);
   const Dialect& dialect = *find_dialect(program.dialect);
   Block block;
   for (int percents = 0; next_line(program.text, block);) {

@@ -49,9 +49,11 @@ SanityCheck check_work_offset(const std::vector<std::string>& selected, bool kno
   for (const std::string& name : selected)
     if (!name.empty()) names.push_back(name);
   if (known) {
+    if (selected.empty()) return {"work offset", SanityState::ok, "the program gives its base"};
     if (names.empty()) return {"work offset", SanityState::ok, "G54, with which controls start"};
     return {"work offset", SanityState::ok, named(names)};
   }
+  if (selected.empty()) return {"work offset", SanityState::ok, "the program gives its base"};
   if (names.empty())
     return {"work offset", SanityState::ok,
             "the program does not select one: its coordinates are machine coordinates"};

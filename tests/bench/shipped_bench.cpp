@@ -31,9 +31,9 @@ std::array<std::vector<BatchRequest>, 2> there_and_back(const Case& c, double tu
   };
   for (std::size_t i = 0; i < batch; ++i) {
     const double s = spacing * static_cast<double>(i);
-    ways[0].push_back({begin + s * along, little_by_little(i).F, turn_at(s)});
-    ways[1].push_back(
-        {begin + (spacing * batch - s) * along, little_by_little(batch + i).F, turn_at(spacing * batch - s)});
+    ways[0].push_back({{begin + s * along, turn_at(s)}, little_by_little(i).F});
+    const double back = spacing * batch - s;
+    ways[1].push_back({{begin + back * along, turn_at(back)}, little_by_little(batch + i).F});
   }
   return ways;
 }

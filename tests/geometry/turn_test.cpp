@@ -42,6 +42,11 @@ TEST_CASE("an orientation keeps its numbers, in every form and at every branch")
       {Form::rotation_vector, {0, 4, 0}},  // longer than pi
       {Form::rotation_vector, {0, 0, 0}},
       {Form::rotation_vector, {0, 2 * pi, 0}},
+      {Form::axis, {0, 0, 1}},
+      {Form::axis, {0, 0, -1}},
+      {Form::axis, {0.6, 0, -0.8}},
+      {Form::axis, {1e-9, 0, -1}},
+      {Form::axis, {30, -40, 120}},  // length 130
   };
   for (const auto& [form, numbers] : cases) {
     CAPTURE(static_cast<int>(form));
@@ -91,4 +96,42 @@ TEST_CASE("angles that are interpolated go their own way, one rotation the short
   const Matrix3 frame = exp_so3({0.3, 0.2, 0.1});
   CHECK((orientation_at(frame * angles, 0.3) - frame * orientation_at(angles, 0.3)).norm() < 1e-14);
   CHECK((orientation_at(frame * one, 0.3) - frame * orientation_at(one, 0.3)).norm() < 1e-14);
+}
+
+TEST_CASE("an axis is the third column of the smallest rotation that turns +Z to it") {
+  // Hand-computed: from +Z to +X a quarter turn about +Y; to (0, -1, 0) a quarter turn about +X.
+  Matrix3 to_x, to_minus_y, to_minus_z;
+  to_x << 0, 0, 1, 0, 1, 0, -1, 0, 0;
+  to_minus_y << 1, 0, 0, 0, 0, -1, 0, 1, 0;
+  to_minus_z << 1, 0, 0, 0, -1, 0, 0, 0, -1;
+  CHECK((rotation_of(Form::axis, {2, 0, 0}) - to_x).norm() < 1e-15);
+  CHECK((rotation_of(Form::axis, {0, -0.5, 0}) - to_minus_y).norm() < 1e-15);
+  CHECK((rotation_of(Form::axis, {0, 0, -3}) - to_minus_z).norm() < 1e-15);
+  CHECK(rotation_of(Form::axis, {0, 0, 0}) == Matrix3::Identity());
+  const Vector3 axis = Vector3(1, 2, -2) / 3;
+  const Matrix3 R = rotation_of(Form::axis, {axis.x(), axis.y(), axis.z()});
+  CHECK((R.col(2) - axis).norm() < 1e-15);
+  CHECK(log_so3(R).norm() == doctest::Approx(std::acos(axis.z())));
+  CHECK(std::abs(log_so3(R).z()) < 1e-12);
+}
+
+TEST_CASE("the turn about an axis is not among its numbers") {
+  const Matrix3 R = rotation_of(Form::axis, {0.6, 0, 0.8});
+  const Matrix3 turned = R * exp_so3({0, 0, 1.2});
+  CHECK(miss(numbers_of(Form::axis, turned, {0.6, 0, 0.8}), {0.6, 0, 0.8}) < 1e-15);
+  CHECK(miss(numbers_of(Form::axis, turned, {0, 0, 5}), {3, 0, 4}) < 1e-14);
+  CHECK(miss(numbers_of(Form::axis, turned, {}), {0.6, 0, 0.8}) < 1e-15);
+}
+
+TEST_CASE("an axis turns in the plane of both ends") {
+  const OrientationNumbers start{1, 0, 0}, end{0, 1, 0};
+  Turn turn{rotation_of(Form::axis, start), rotation_of(Form::axis, end)};
+  turn.axis_in = Matrix3::Identity();
+  const double half = std::sqrt(0.5);
+  CHECK((orientation_at(turn, 0.5).col(2) - Vector3(half, half, 0)).norm() < 1e-15);
+  CHECK((orientation_at(turn, 0.5) - rotation_of(Form::axis, {half, half, 0})).norm() < 1e-15);
+  CHECK((orientation_at(turn, 1e-9) - turn.start).norm() < 1e-8);
+  CHECK((orientation_at(turn, 1 - 1e-9) - turn.end).norm() < 1e-8);
+  const Matrix3 frame = exp_so3({0.3, 0.2, 0.1});
+  CHECK((orientation_at(frame * turn, 0.3) - frame * orientation_at(turn, 0.3)).norm() < 1e-14);
 }

@@ -46,6 +46,8 @@ Matrix3 from_quaternion(const Eigen::Vector4d& wxyz);
 struct Pose {
   Matrix3 R = Matrix3::Identity();
   Vector3 p = Vector3::Zero();  ///< m
+
+  bool operator==(const Pose&) const = default;
 };
 
 inline Pose operator*(const Pose& X_AB, const Pose& X_BC) {

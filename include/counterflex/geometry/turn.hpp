@@ -13,6 +13,9 @@ enum class OrientationForm : std::uint8_t {
   fixed_axes,       ///< degrees about X, Y, Z: R = Rz Ry Rx. A B C of LinuxCNC, W P R of FANUC, C B A of KUKA
   quaternion,       ///< w x y z: ABB
   rotation_vector,  ///< rad about X, Y, Z: Universal Robots
+  /// The direction of the tool axis, of any length: I J K of APT. The turn about the axis is not given:
+  /// `rotation_of` takes the smallest rotation that turns +Z to the axis, for -Z half a turn about X.
+  axis,
 };
 
 /// Numbers of an orientation, three or four (quaternion); the rest are 0.
@@ -21,11 +24,12 @@ using OrientationNumbers = std::array<double, 4>;
 /// How many numbers the form has.
 std::size_t number_count(OrientationForm form);
 
-/// The rotation of the numbers. A quaternion is normalised.
+/// The rotation of the numbers. A quaternion and an axis are normalised; an axis of length 0 gives +Z.
 Matrix3 rotation_of(OrientationForm form, const OrientationNumbers& numbers);
 
 /// Numbers of the rotation `R`: of all that give it those nearest to `near`, so that a small rotation changes
-/// numbers little. At the poles of `fixed_axes` (90 degrees about Y) the angle about X is that of `near`.
+/// numbers little. At the poles of `fixed_axes` (90 degrees about Y) the angle about X is that of `near`. Of
+/// `axis` it is the third column of `R` in the length of `near`.
 OrientationNumbers numbers_of(OrientationForm form, const Matrix3& R, const OrientationNumbers& near);
 
 /// The part of a rotation vector (rad) that tilts `axis`, a unit vector; the rest turns about it.
@@ -43,6 +47,9 @@ struct Turn {
     Vector3 start_deg = Vector3::Zero(), end_deg = Vector3::Zero();
   };
   std::optional<Angles> angles{};
+  /// A control that knows only the tool axis: it turns the axis in the plane of both ends, and the rotation
+  /// is that of `OrientationForm::axis` in this frame.
+  std::optional<Matrix3> axis_in{};
 };
 
 /// The orientation at fraction `u` of the way; its start and end exactly at 0 and 1.

@@ -31,6 +31,7 @@ struct Overview {
   std::optional<int> first_force_line;  ///< line of the first move under a FORCE comment other than OFF
   std::optional<int> first_feed_without_tool;  ///< line of the first feed move whose tool number is unknown
   std::optional<int> first_cycle_line;         ///< line of the first hole of a cycle
+  std::optional<Remark> external_axes_move{};  ///< as in Program
   bool turns_tool = false;                     ///< whether moves give the tool's orientation
   bool commented_force = false;                ///< whether a move is under a FORCE comment that is not zero
 };

@@ -22,7 +22,20 @@ struct Span {
   std::size_t end = 0;
 };
 
-enum class LengthUnit : std::uint8_t { millimetres, inches };
+enum class LengthUnit : std::uint8_t { millimetres, inches, metres };
+
+/// Length of a unit in mm.
+constexpr double mm_per(LengthUnit unit) {
+  switch (unit) {
+    case LengthUnit::millimetres:
+      return 1;
+    case LengthUnit::inches:
+      return 25.4;
+    case LengthUnit::metres:
+      return 1000;
+  }
+  return 1;
+}
 
 /// Meaning of a length word without a decimal point. `units`: the unit of the program. `increments`: 0.001 mm
 /// or 0.0001 inch. `unspecified`: read as units, but if the dialect allows both meanings, a block with such a
@@ -72,8 +85,14 @@ enum class FeedMode : std::uint8_t { length, inverse_time };
 /// How a block in polar coordinates gives the end of its arc: CP IPA, CP PA of Klartext.
 enum class PolarEnd : std::uint8_t { none, by_angle, in_direction };
 
-/// The arc of a feed move under G2 or G3, in program coordinates (mm). It begins and ends where the move
-/// does.
+/// The auxiliary point of an arc that a robot language gives by three points: its end and a point before it.
+struct ArcPoint {
+  Vector3 p_mm = Vector3::Zero();
+  Vector3 normal = Vector3::UnitZ();  ///< of the plane of the points; the arc is counter-clockwise about it
+};
+
+/// The arc of a feed move under G2 or G3, in program coordinates (mm), or of CIRC and its like. It begins and
+/// ends where the move does.
 struct ArcMove {
   int normal = 2;                       ///< axis normal to the plane: 2 G17, 1 G18, 0 G19
   bool clockwise = false;               ///< G2: clockwise when viewed against the normal
@@ -85,10 +104,14 @@ struct ArcMove {
   std::array<PackedAxisWord, 3> centre_words;  ///< I, J, K of the block
   PackedAxisWord radius_word;                  ///< R or CR=; such an arc has no I J K
   double radius_mm = 0;                        ///< as written: negative for more than half a turn
+  /// If set, `centre_words` are X, Y, Z of this point, `normal` is the axis next to its plane's normal, and
+  /// the arc has no radius and no further turns.
+  std::optional<ArcPoint> through{};
 };
 
 /// Unit normal about which the arc turns counter-clockwise, program coordinates.
 inline Vector3 normal_of(const ArcMove& arc) {
+  if (arc.through) return arc.through->normal;
   return (arc.clockwise ? -1 : 1) * Vector3::Unit(arc.normal);
 }
 
@@ -320,13 +343,16 @@ struct ProgramFrame {
   double turn_rad = 0;                  ///< about Z, counter-clockwise
   /// By axis: position of the offset in machine coordinates, if the program sets it (G10 L2).
   std::array<std::optional<double>, 3> set_mm{};
+  /// Pose of the work offset in the machine frame or the robot's world frame, if the program gives it with
+  /// numbers ($BASE, wobjdata); lengths in mm, unlike other poses.
+  std::optional<Pose> pose_mm{};
 
   bool operator==(const ProgramFrame&) const = default;
 };
 
-/// Whether the program itself sets the position of the frame's work offset (G10 L2).
+/// Whether the program itself gives the place of the frame's work offset (G10 L2, $BASE with numbers).
 inline bool is_set(const ProgramFrame& frame) {
-  return frame.set_mm[0] || frame.set_mm[1] || frame.set_mm[2];
+  return frame.pose_mm || frame.set_mm[0] || frame.set_mm[1] || frame.set_mm[2];
 }
 
 /// The pose of `frame` in the coordinates of its work offset (mm).
@@ -354,8 +380,11 @@ struct Program {
   std::vector<LeftAlone> left_alone;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
-  std::size_t block_count = 0;                 ///< lines with at least one word
-  std::size_t evaluated = 0;  ///< number of words that were variables or expressions and were evaluated
+  /// The first target of a robot program whose external axes differ from those of the first target: a machine
+  /// file has no such axes, so the place of the robot is not known there.
+  std::optional<Remark> external_axes_move{};
+  std::size_t block_count = 0;  ///< lines with at least one word
+  std::size_t evaluated = 0;    ///< number of words that were variables or expressions and were evaluated
   Expansion expansion{};
 };
 

@@ -136,6 +136,9 @@ struct AxisPlace {
 /// and rotary axes are compared in shares of their travel. None where no actuator has a limit.
 std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::VectorXd& rho);
 
+/// How far two sets of actuator values are apart (m, rad); full turns of a rotary one count as nothing.
+double actuator_distance(const Mechanism& mechanism, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
+
 /// "138.0 mm", "-12.5 deg": the value of an actuator.
 std::string axis_value(const Travel& travel, double value);
 

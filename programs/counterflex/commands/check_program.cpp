@@ -77,7 +77,7 @@ std::string units_text(const MoveFacts& facts) {
   std::string text;
   for (const LengthUnit unit : facts.units) {
     text += text.empty() ? "" : " and ";
-    text += unit == LengthUnit::millimetres ? "mm" : "inch";
+    text += unit == LengthUnit::inches ? "inch" : unit == LengthUnit::metres ? "m" : "mm";
   }
   return text.empty() ? "not stated by any move" : text;
 }

@@ -124,13 +124,9 @@ void take_lengths(const ToolLengths& lengths, Machine& machine) {
   }
 }
 
-namespace {
-
 bool controls_pose(const Machine& machine) {
   return std::set<Component>(machine.controlled.begin(), machine.controlled.end()).size() == 6;
 }
-
-}  // namespace
 
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {
   ReadOptions read;

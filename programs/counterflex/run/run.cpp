@@ -42,6 +42,17 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
   return axes;
 }
 
+/// A program that turns the tool needs a machine that can, and a robot that stays in its place.
+void refuse_orientation(const Run& run) {
+  if (const auto& moved = run.program.external_axes_move)
+    throw InputError(ErrorKind::program_text, {run.program.file, moved->line, 1}, moved->what);
+  if (!run.program.turns_tool || controls_pose(run.machine.machine)) return;
+  throw InputError(
+      ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
+      "the program gives the tool's orientation, but `controlled` does not list all of x, y, z, rx, "
+      "ry, rz: take the file of a six-axis machine, or add what the machine controls");
+}
+
 /// Warns of orientations that the machine controls but a program of X, Y and Z does not state.
 void warn_of_orientation(Run& run) {
   const Machine& machine = run.machine.machine;
@@ -201,6 +212,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
   run->starts.emplace();
+  refuse_orientation(*run);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
                     run->work.frames);

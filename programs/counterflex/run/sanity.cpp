@@ -31,7 +31,7 @@ std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
 std::vector<std::string> selected_offsets(const Overview& program) {
   std::vector<std::string> names;
   for (std::size_t i = 0; i < program.frames_used.size(); ++i)
-    if (program.frames_used[i]) names.push_back(program.frames[i].work_offset);
+    if (program.frames_used[i] && !program.frames[i].pose_mm) names.push_back(program.frames[i].work_offset);
   return names;
 }
 

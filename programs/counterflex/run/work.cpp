@@ -59,6 +59,8 @@ std::string no_table_warning(const Overview& program) {
 
 std::string start_warning(const Overview& program) {
   if (program.frames_used.empty() || !program.frames_used[0]) return "";
+  if (is_robot_dialect(program.dialect))
+    return "the program selects no base: its targets are taken in the machine frame";
   return "the program does not select a work offset at first; G54, the default of controls, is assumed";
 }
 
@@ -71,6 +73,7 @@ Pose placed(const ProgramFrame& frame) {
 
 /// The pose of `frame`. Its offset is at `offset`, unless the program sets it.
 WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
+  if (frame.pose_mm) offset = {frame.work_offset, Pose{frame.pose_mm->R, frame.pose_mm->p * mm}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!frame.set_mm[axis]) continue;
     const auto k = static_cast<Eigen::Index>(axis);
@@ -99,6 +102,12 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
   return frame;
 }
 
+/// Whether no work offset is needed: the program gives the pose of its base, or a robot program selects
+/// none.
+bool is_placed_by_program(const Overview& program, const ProgramFrame& frame) {
+  return frame.pose_mm || (is_robot_dialect(program.dialect) && frame.work_offset.empty());
+}
+
 WorkPlace in_machine_frame(const Overview& program) {
   WorkPlace place;
   for (const ProgramFrame& frame : program.frames) place.frames.push_back(place_frame({}, frame));
@@ -118,6 +127,7 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
   std::map<std::string, WorkFrame> offsets;  // solved once for all frames of an offset
   for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
     if (!program.frames_used[i]) continue;
+    if (is_placed_by_program(program, program.frames[i])) continue;
     const std::string& selected = program.frames[i].work_offset;
     auto offset = offsets.find(selected);
     if (offset == offsets.end())
@@ -136,6 +146,7 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
   if (table.empty()) return place;
   for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
     if (!program.frames_used[i]) continue;
+    if (is_placed_by_program(program, program.frames[i])) continue;
     const std::string& selected = program.frames[i].work_offset;
     const std::string name = selected.empty() ? power_on_offset : selected;
     const auto found = table.find(name);

@@ -102,9 +102,11 @@ const std::array option_table{
                 fmt::format("{} is '{}', must be 0 for jumps, or at least {}", name, text, least_mm));
           options.blend = blend_mm * mm;
         }},
-    SettingOption{"dialect", "--dialect", "auto|linuxcnc|grbl|fanuc|haas|mach3|siemens|heidenhain",
-                  group::reading, "The control (default: of the machine file, or auto)", "", false,
-                  take_dialect},
+    SettingOption{
+        "dialect", "--dialect", "NAME", group::reading,
+        "The control: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur or apt "
+        "(default: of the machine file, or auto)",
+        "", false, take_dialect},
     SettingOption{"units", "--units", "mm|inch", group::common, "Units before the program states its own", "",
                   false, take_units},
     SettingOption{"integer-words", "--integer-words", "units|increments", group::reading,

@@ -67,7 +67,7 @@ Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
 
 }  // namespace
 
-Via Emitter::via_of(const Move& move, const Command& command, double u) const {
+Via Emitter::via_of(const Move& move, const TargetCommand& command, double u) const {
   return {in_words_mm(job_, move, command.target), {}, turned_words(job_, move, u, command.turn)};
 }
 

@@ -34,7 +34,7 @@ void Emitter::hold(const Vector3& correction, const std::array<bool, 3>& axes) {
 
 bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const {
   const int decimals = decimals_of(move, job_.options.write).end[axis];
-  const double unit = move.unit == LengthUnit::inches ? inch / mm : 1;
+  const double unit = mm_per(move.unit);
   return std::abs(shift_mm) <= 0.5 * std::pow(10.0, -decimals) * unit * (1 + 1e-9);
 }
 

@@ -35,7 +35,7 @@ class Emitter {
   void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
                       EmittedMove& emitted);
   /// A point of the text for a command at a fraction of the move.
-  Via via_of(const Move& move, const Command& command, double u) const;
+  Via via_of(const Move& move, const TargetCommand& command, double u) const;
   bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
   Vector3 correction_where_held(const Move& move, const Vector3& correction) const;

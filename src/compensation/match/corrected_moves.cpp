@@ -41,7 +41,9 @@ std::string statement_of(const Program& program, std::string_view line, bool& se
 
 // A comment of the header and nothing else.
 bool is_header(std::string_view line) {
-  if (line.starts_with("; COUNTERFLEX 1") || line.starts_with(";COUNTERFLEX 1")) return true;
+  for (const std::string_view mark : {";", "!", "#", "$$"})  // of robot languages, too
+    for (const std::string_view text : {" COUNTERFLEX 1", "COUNTERFLEX 1"})
+      if (line.starts_with(mark) && line.substr(mark.size()).starts_with(text)) return true;
   return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
 }
 

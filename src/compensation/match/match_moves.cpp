@@ -10,6 +10,7 @@
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/read_program.hpp"
 
 namespace counterflex {
 namespace {
@@ -23,9 +24,15 @@ bool acts_first(const Move& original, const std::string& words) {
   return original.motion == Motion::feed && !changes_height_inside(original) && !is_plain(words);
 }
 
+// The pieces of a robot's statement are copies of it.
+bool are_copies(const CorrectedMove& found) {
+  return is_robot_dialect(found.program->dialect);
+}
+
 bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != original.motion) return false;
   const std::string held = skeleton(*found.program, *found.move);
+  if (are_copies(found)) return are_alike(held, words);
   return j > 0 && acts_first(original, words) ? is_plain(held) : held == words;
 }
 
@@ -33,6 +40,7 @@ bool may_end(const Move& original, const std::string& words, const CorrectedMove
 bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
   const std::string held = skeleton(*found.program, *found.move);
+  if (are_copies(found)) return are_alike(held, words);
   return j == 0 && acts_first(original, words) ? held == words : is_plain(held);
 }
 
@@ -143,6 +151,14 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
     const std::string words = skeleton(*found.program, move);
+    if (are_copies(found)) {
+      if (!are_alike(words, wanted))
+        return fail(found, "the words besides coordinates are not those of the original's statement");
+      if (move.feed_mm_min != original.feed_mm_min || move.tool != original.tool)
+        return fail(found, "the feed or the tool is not that of the original");
+      own_blocks = 1;
+      continue;
+    }
     if (words == wanted) ++own_blocks;
     const bool plain = is_plain(words) && words.find_first_of("(;") == std::string::npos;
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||

@@ -4,6 +4,8 @@
 #include <cctype>
 #include <string_view>
 
+#include "counterflex/program/read_program.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -137,7 +139,70 @@ std::string without_klartext_motion(std::string text) {
 
 }  // namespace
 
+namespace {
+
+// The statement of a robot's move up to its target: letters, and the bracket behind them.
+std::string head_of(std::string_view statement) {
+  std::size_t end = 0;
+  while (end < statement.size() && std::isalpha(static_cast<unsigned char>(statement[end])) != 0) ++end;
+  return std::string(statement.substr(0, end));
+}
+
+// The words of a zone: ",z10", ",[FALSE,0.5,...]" of ABB, ",r=0.001" of Universal Robots.
+std::string without_zone(std::string text) {
+  for (std::size_t at = 0; (at = text.find(',', at)) != std::string::npos;) {
+    const std::string_view rest = std::string_view(text).substr(at + 1);
+    std::size_t size = 0;
+    if ((rest.starts_with('z') || rest.starts_with('Z')) && rest.size() > 1 && is_digit(rest[1]))
+      size = 1 + std::min(rest.find_first_not_of("0123456789", 1), rest.size());
+    else if (rest.starts_with("[FALSE") || rest.starts_with("[TRUE"))
+      size = 2 + std::min(rest.find(']'), rest.size() - 1);
+    else if (rest.starts_with("r="))
+      size = 1 + std::min(rest.find_first_not_of("0123456789.eE+-", 2), rest.size());
+    if (size > 0)
+      text.erase(at, size);
+    else
+      ++at;
+  }
+  return text;
+}
+
+std::string robot_skeleton(const Program& program, const Move& move) {
+  std::vector<Span> numbers;
+  bool is_named = false;
+  const auto add = [&](const PackedAxisWord& word) {
+    if (!word) return;
+    numbers.push_back(word->number);
+    is_named = is_named || word->number.begin < move.block.begin || word->number.end > move.block.end;
+  };
+  for (const auto& word : move.words) add(word);
+  if (move.orientation)
+    for (const auto& word : move.orientation->words) add(word);
+  if (move.arc)
+    for (const auto& word : move.arc->centre_words) add(word);
+  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  std::string text;
+  std::size_t at = move.block.begin;
+  const auto keep = [&](std::size_t end) {
+    for (; at < end; ++at)
+      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
+  };
+  for (const Span& number : numbers)
+    if (!is_named && number.begin >= at) keep(number.begin), at = number.end;
+  keep(move.block.end);
+  return is_named ? head_of(text) + '@' : without_zone(std::move(text));
+}
+
+}  // namespace
+
+bool are_alike(const std::string& a, const std::string& b) {
+  if (a.ends_with('@')) return b.starts_with(std::string_view(a).substr(0, a.size() - 1));
+  if (b.ends_with('@')) return a.starts_with(std::string_view(b).substr(0, b.size() - 1));
+  return a == b;
+}
+
 std::string skeleton(const Program& program, const Move& move) {
+  if (is_robot_dialect(program.dialect)) return robot_skeleton(program, move);
   const bool klartext = program.dialect == "heidenhain";
   std::string text;
   std::size_t at = move.block.begin;

@@ -70,7 +70,7 @@ double digit_mm(const ArcTask& task) {
   int least = decimals.inserted;
   for (const Eigen::Index axis : plane_of(task.move))
     least = std::min(least, decimals.end[static_cast<std::size_t>(axis)]);
-  return std::pow(10.0, -least) * (task.move.unit == LengthUnit::inches ? inch / mm : 1);
+  return std::pow(10.0, -least) * mm_per(task.move.unit);
 }
 
 // GRBL's rule; LinuxCNC's is wider.

@@ -170,7 +170,7 @@ std::optional<Failure> plan_slice(const Job& job, std::size_t begin, std::size_t
 
 }  // namespace
 
-Command command_at(const Job& job, const Segment& segment, double u, const Correction& c) {
+TargetCommand command_at(const Job& job, const Segment& segment, double u, const Correction& c) {
   return {point_at(segment.wanted, u) + shift_of(c), c.tail<3>() / lever(job.options)};
 }
 

@@ -7,19 +7,19 @@ namespace counterflex {
 
 /// A commanded position (M, m), and the rotation vector by which the tool is turned against the wanted
 /// orientation (rad, axes of M), where the program gives one.
-struct Command {
+struct TargetCommand {
   Vector3 target = Vector3::Zero();
   Vector3 turn = Vector3::Zero();
 };
 
-struct Knot : Command {
+struct Knot : TargetCommand {
   double u = 1;  ///< fraction of the segment
 };
 
 struct PlannedSegment {
-  Command start{};               ///< where the segment should begin
-  bool starts_anywhere = false;  ///< a rapid begins where the move before it ended
-  std::optional<Command> end{};  ///< of a segment that is not divided: at its end
+  TargetCommand start{};               ///< where the segment should begin
+  bool starts_anywhere = false;        ///< a rapid begins where the move before it ended
+  std::optional<TargetCommand> end{};  ///< of a segment that is not divided: at its end
   /// Else the last one is its end; a step within is two knots at one fraction.
   std::vector<Knot> knots;
   /// Of an arc: its correction between steps of the force; its text is fitted when it is known where the one
@@ -31,8 +31,8 @@ struct PlannedSegment {
   double unsplit_miss = 0;
 };
 
-/// What is commanded at the end of a segment that is corrected by itself.
-inline const Command& end_of(const PlannedSegment& planned) {
+/// The command at the end of a segment that is corrected by itself.
+inline const TargetCommand& end_of(const PlannedSegment& planned) {
   return planned.end ? *planned.end : planned.knots.back();
 }
 
@@ -42,7 +42,7 @@ struct Plan {
 };
 
 /// The command of a correction at a fraction of a segment.
-Command command_at(const Job& job, const Segment& segment, double u, const Correction& c);
+TargetCommand command_at(const Job& job, const Segment& segment, double u, const Correction& c);
 
 /// What must be left of the tolerance of a segment for corrections between points (m); nothing where rounding
 /// to the digits takes it all.

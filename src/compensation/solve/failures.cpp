@@ -6,10 +6,8 @@
 #include <cmath>
 #include <limits>
 
-#include "compensation/solve/solver.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/statics/arm_margins.hpp"
 
 namespace counterflex {
 namespace {
@@ -22,7 +20,7 @@ double last_digit(int decimals) {
 }
 
 double rounding_of(LengthUnit unit, int decimals) {
-  return 0.5 * (unit == LengthUnit::inches ? inch : mm) * last_digit(decimals) * std::sqrt(3.0);
+  return 0.5 * (mm_per(unit) * mm) * last_digit(decimals) * std::sqrt(3.0);
 }
 
 int fewest_decimals(const Move& move, const WriteOptions& options) {
@@ -148,55 +146,6 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
                     format_beside(miss / mm, job.options.tolerance / mm, 4), 100 * w.fraction,
                     job.options.tolerance / mm),
         w.corrected_line};
-  }
-  return std::nullopt;
-}
-
-namespace {
-
-constexpr double least_arm_margin = 1 * deg;
-
-// An arm that is so near to another configuration that a corrected target might be reached in it.
-std::optional<Failure> configuration_failure(PlaceSolver& solver, const TipPosition& at, int line) {
-  if (!at.R_MT) return std::nullopt;
-  const NominalResult nominal = solver.nominal(at);
-  if (nominal.status != Status::converged) return std::nullopt;
-  const auto margin = arm_margin(*at.model, nominal.configuration);
-  if (!margin || margin->angle >= least_arm_margin) return std::nullopt;
-  return Failure{ErrorKind::not_compensated, line,
-                 fmt::format("the arm is {:.2f} deg from another configuration ({}); at least {:.0f} deg is "
-                             "needed: turn the tool about its axis, or move the part",
-                             margin->angle / deg, margin->what, least_arm_margin / deg)};
-}
-
-// The branch is followed straight from place to place: around an arc and a turn in steps of 22.5 degrees.
-int parts_for_branch(const Segment& segment) {
-  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0, turn_of(segment));
-  return 1 + static_cast<int>(turned / (pi / 8));
-}
-
-}  // namespace
-
-std::optional<Failure> branch_failure(const Job& job) {
-  PlaceSolver solver(job);
-  std::optional<TipPosition> at = job.from;
-  for (const Segment& segment : job.path.segments) {
-    const Model& model = model_of(job, segment);
-    const auto go_to = [&](const TipPosition& next) {
-      const bool joins = at && at->model == &model;
-      if (joins && at->p_MT == next.p_MT && at->R_MT == next.R_MT) return Status::converged;
-      const Status status = joins ? solver.join(*at, next) : solver.nominal(next).status;
-      at = next;
-      return status;
-    };
-    const int parts = parts_for_branch(segment);
-    for (int k = 0; k <= parts; ++k) {
-      const double u = static_cast<double>(k) / parts;
-      const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
-      if (const Status status = go_to(next); status != Status::converged)
-        return status_failure(job, status, segment, next.p_MT);
-      if (auto failure = configuration_failure(solver, next, segment.line)) return failure;
-    }
   }
   return std::nullopt;
 }

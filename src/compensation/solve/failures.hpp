@@ -25,8 +25,4 @@ double rounding_as_read(const Move& move);
 /// The failure of a move's words that are rounded too much for the tolerance.
 Failure few_decimals_failure(const Move& move, const CompensationOptions& options);
 
-/// The first place of the path that the nominal machine does not reach, or to which it does not come on its
-/// branch. Every answer has a nominal configuration of its own, so the path is checked from place to place.
-std::optional<Failure> branch_failure(const Job& job);
-
 }  // namespace counterflex

@@ -180,7 +180,8 @@ Status PlaceSolver::join(const TipPosition& from, const TipPosition& to) {
   const NominalResult end = nominal(m, to);
   if (end.status != Status::converged) return end.status;
   const auto rho = [&](const NominalResult& r) { return actuator_values(model.mechanism, r.configuration); };
-  const bool same = (rho(followed) - rho(end)).norm() < same_branch * model.mechanism.length;
+  const bool same =
+      actuator_distance(model.mechanism, rho(followed), rho(end)) < same_branch * model.mechanism.length;
   return same ? Status::converged : Status::singular;
 }
 

@@ -68,10 +68,16 @@ std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
   return target_of(job, last);
 }
 
+void follow_window(const Job& job, WindowWork& work) {
+  FollowedPath followed = follow_branch(job);
+  work.result.failure = std::move(followed.failure);
+  work.actuators = std::move(followed.way);
+}
+
 void plan_window(const Job& job, WindowWork& work) {
   Compensation& result = work.result;
   result.failure = decimals_failure(job.program, job.path, job.options);
-  if (!result.failure) result.failure = branch_failure(job);
+  if (!result.failure) follow_window(job, work);
   if (work.failed()) return;
   work.plan = plan(job);
   result.failure = work.plan.failure;
@@ -80,6 +86,8 @@ void plan_window(const Job& job, WindowWork& work) {
 
 void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   Compensation& result = work.result;
+  result.failure = turns_failure(job, work.actuators, carry.path.actuators);
+  if (work.failed()) return;
   Emission emission = emit(job, work.plan, carry.emitter);
   work.ways = planned_ways(job, work.plan);
   work.plan = {};
@@ -94,8 +102,8 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   carry.corrected.read(result.text);
   carry.corrected.take_window(result.corrected);
   if (!job.program.moves.empty()) ignore_axes(result.corrected, job.program.moves.front().ignored);
-  work.command = carry.command;
-  carry.command = last_command(job, result.corrected);
+  work.command = carry.path.command;
+  carry.path.command = last_command(job, result.corrected);
 }
 
 void take(Matching matching, WindowWork& work) {
@@ -113,26 +121,27 @@ void match_written(const Job& job, WindowWork& work) {
 
 // Where the plan fails the ends are not known. What is written may be right in spite of that.
 void plan_ends(const Job& job, WindowWork& work) {
-  work.result.failure = branch_failure(job);
+  follow_window(job, work);
   if (work.failed()) return;
   const Plan found = plan(job);
   if (!found.failure) work.ways = planned_ways(job, found);
 }
 
-void carry_command(std::optional<Vector3>& command, WindowWork& work) {
-  work.command = command;
-  if (!work.pieces.empty()) command = work.pieces.back().commanded.end;
+void carry_path(const Job& job, PathCarry& carry, WindowWork& work) {
+  work.command = carry.command;
+  if (!work.pieces.empty()) carry.command = work.pieces.back().commanded.end;
+  if (!work.failed()) work.result.failure = turns_failure(job, work.actuators, carry.actuators);
 }
 
 }  // namespace
 
-WindowSteps steps_of_prediction(std::optional<Vector3>& command) {
+WindowSteps steps_of_prediction(PathCarry& carry) {
   return {.questions = {.before = true, .attribution = true, .inside = false},
-          .prepare = [](const Job& job, WindowWork& work) { work.result.failure = branch_failure(job); },
+          .prepare = follow_window,
           .write =
-              [&command](const Job& job, WindowWork& work) {
+              [&carry](const Job& job, WindowWork& work) {
                 work.pieces = original_pieces(job);
-                carry_command(command, work);
+                carry_path(job, carry, work);
               },
           .match = [](const Job&, WindowWork&) {},
           .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
@@ -155,7 +164,7 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
           .write =
               [&carry](const Job& job, WindowWork& work) {
                 take(match_window(job, work.ways, carry.lines, carry.found), work);
-                carry_command(carry.command, work);
+                carry_path(job, carry.path, work);
               },
           .match = [](const Job&, WindowWork&) {},
           .judge =

@@ -4,6 +4,7 @@
 
 #include "compensation/emit/emit.hpp"
 #include "compensation/match/match.hpp"
+#include "compensation/solve/branch.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
@@ -12,6 +13,7 @@ namespace counterflex {
 struct WindowWork {
   Plan plan{};
   PlannedWays ways{};
+  ActuatorWay actuators{};
   std::vector<Piece> pieces{};       ///< that are solved
   std::optional<Vector3> command{};  ///< where the window before ended, if that is known
   Compensation result{};
@@ -29,15 +31,20 @@ struct WindowSteps {
   std::function<void(const Job&, WindowWork&, const std::optional<Failure>& missed)> judge;
 };
 
-/// Carries the command where a window ends.
-WindowSteps steps_of_prediction(std::optional<Vector3>& command);
+/// What every run carries from window to window.
+struct PathCarry {
+  std::optional<Vector3> command{};  ///< where the text ends, if that is known
+  Eigen::VectorXd actuators{};       ///< where the path ends, rotary ones counted on over full turns
+};
+
+WindowSteps steps_of_prediction(PathCarry& carry);
 
 /// What compensating carries from window to window.
 struct WritingCarry {
   Rewriter rewriter;
   TextReader corrected;
   EmitterState emitter{};
-  std::optional<Vector3> command{};  ///< where the text ends, if that is known
+  PathCarry path{};
 };
 
 WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution);
@@ -46,7 +53,7 @@ WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution);
 struct VerifyingCarry {
   CorrectedMoves found;
   OtherLines lines{};
-  std::optional<Vector3> command{};
+  PathCarry path{};
   std::optional<Failure> missed{};  ///< the first miss of the tolerance
 };
 

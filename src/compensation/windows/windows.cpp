@@ -170,8 +170,8 @@ class WindowRun {
 }  // namespace
 
 std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events) {
-  std::optional<Vector3> command;
-  return WindowRun(windows, threads, steps_of_prediction(command), events).run();
+  PathCarry carry;
+  return WindowRun(windows, threads, steps_of_prediction(carry), events).run();
 }
 
 std::optional<Failure> compensate_windows(JobWindows& windows, const CompensationOptions& options,

@@ -16,8 +16,9 @@ namespace {
 
 const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry", "rz"};
 
-const std::vector<std::string_view> dialects = {"auto",    "linuxcnc",   "grbl", "fanuc", "haas", "mach3",
-                                                "siemens", "heidenhain", "krl",  "rapid", "ls",   "urscript"};
+const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc", "haas",
+                                                "mach3", "siemens",  "heidenhain", "kuka",  "abb",
+                                                "ur",    "apt",      "ls"};
 
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 

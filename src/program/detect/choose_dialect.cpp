@@ -34,6 +34,21 @@ const Dialect& detect_dialect_of_file(std::string_view text, std::string_view fi
   return siemens_file && detected.name != klartext_name ? *find_dialect("siemens") : detected;
 }
 
+const Dialect& dialect_of_robot(const RobotLanguage& language, const std::string& file,
+                                const ReadOptions& options) {
+  if (language.dialect.empty())
+    throw InputError(
+        ErrorKind::program_text, {file, 1, 1},
+        fmt::format("this is a program in {}, which is not supported; post the job as KUKA KRL, ABB RAPID, "
+                    "URScript, APT, G-code, Siemens or Heidenhain program",
+                    language.name));
+  if (options.dialect != "auto" && options.dialect != language.dialect)
+    throw InputError(ErrorKind::program_text, {file, 1, 1},
+                     fmt::format("this is a program in {}, not in dialect '{}'; use auto or {}",
+                                 language.name, options.dialect, language.dialect));
+  return *find_dialect(language.dialect);
+}
+
 }  // namespace
 
 std::optional<std::string> unknown_dialect(const std::string& dialect) {
@@ -42,12 +57,8 @@ std::optional<std::string> unknown_dialect(const std::string& dialect) {
 }
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
-  if (const std::string_view language = robot_language(text); !language.empty())
-    throw InputError(
-        ErrorKind::program_text, {file, 1, 1},
-        fmt::format("this is a program in {}, which is not supported; post the job as G-code, Siemens or "
-                    "Heidenhain program",
-                    language));
+  if (const RobotLanguage language = robot_language(text); !language.name.empty())
+    return dialect_of_robot(language, file, options);
   if (const std::string machine = other_machine(text); !machine.empty())
     throw InputError(
         ErrorKind::program_text, {file, 1, 1},

@@ -1,7 +1,11 @@
 #include "program/detect/robot_language.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <initializer_list>
+
+#include "program/dialect.hpp"
 
 namespace counterflex {
 namespace {
@@ -38,26 +42,48 @@ bool is_definition(std::string_view line, std::string_view end) {
 }
 
 bool is_comment(std::string_view line) {
-  return line.front() == ';' || line.front() == '!' || line.front() == '#';
+  return line.front() == ';' || line.front() == '!' || line.front() == '#' || line.starts_with("$$");
 }
 
-std::string_view language_of(std::string_view line) {
+/// Whether `line` is one of `words`, '(' and more text.
+bool begins_with_call(std::string_view line, std::initializer_list<std::string_view> words) {
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    return begins_with(line, word, false) && without_blanks(line.substr(word.size())).starts_with('(');
+  });
+}
+
+/// Whether `line` is one of the major words of APT, '/' and more text.
+bool begins_like_apt(std::string_view line) {
+  static constexpr auto words = std::to_array<std::string_view>(
+      {"GOTO", "FROM", "UNITS", "UNIT", "MACHIN", "CUTTER", "LOADTL", "TLDATA", "MULTAX", "PPRINT",
+       "TOOL PATH", "MSYS", "CSYS", "FEDRAT", "SPINDL", "PAINT"});
+  return std::any_of(words.begin(), words.end(), [&](std::string_view word) {
+    return begins_with(line, word, true) && without_blanks(line.substr(word.size())).starts_with('/');
+  });
+}
+
+constexpr RobotLanguage krl_language{"KUKA KRL", kuka_name}, rapid_language{"ABB RAPID", abb_name},
+    urscript_language{"URScript", ur_name}, apt_language{"APT", apt_name};
+
+RobotLanguage language_of(std::string_view line) {
   if (line.size() > 1 && line[0] == '&' && std::isalpha(static_cast<unsigned char>(line[1])) != 0)
-    return "KUKA KRL";
-  if (begins_with(line, "DEFDAT", true)) return "KUKA KRL";
-  if (begins_with(line, "DEF", true) && is_definition(without_blanks(line.substr(3)), "")) return "KUKA KRL";
+    return krl_language;
+  if (begins_with(line, "DEFDAT", true)) return krl_language;
+  if (begins_with(line, "DEF", true) && is_definition(without_blanks(line.substr(3)), ""))
+    return krl_language;
   if (begins_with(line, "def", false) && is_definition(without_blanks(line.substr(3)), ":"))
-    return "URScript";
-  if (line == "%%%" || begins_with(line, "MODULE", true)) return "ABB RAPID";
-  if (begins_with(line, "/PROG", true)) return "FANUC TP (LS)";
-  if (begins_with(line, "/JOB", true)) return "Yaskawa INFORM (JBI)";
-  if (begins_with(line, "PARTNO", true)) return "APT";
+    return urscript_language;
+  if (begins_with_call(line, {"movej", "movel", "movep", "set_tcp"})) return urscript_language;
+  if (line == "%%%" || begins_with(line, "MODULE", true)) return rapid_language;
+  if (begins_with(line, "/PROG", true)) return {"FANUC TP (LS)"};
+  if (begins_with(line, "/JOB", true)) return {"Yaskawa INFORM (JBI)"};
+  if (begins_with(line, "PARTNO", true) || begins_like_apt(line)) return apt_language;
   return {};
 }
 
 }  // namespace
 
-std::string_view robot_language(std::string_view text) {
+RobotLanguage robot_language(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());

@@ -1,11 +1,15 @@
 #pragma once
-/// Recognises robot programs, so that the error can name the language.
+/// Detects the languages of robots.
 #include <string_view>
 
 namespace counterflex {
 
-/// "KUKA KRL", "ABB RAPID", "FANUC TP (LS)", "URScript", "Yaskawa INFORM (JBI)", "APT"; empty for any other
-/// text. The first line that is neither empty nor a comment decides.
-std::string_view robot_language(std::string_view text);
+struct RobotLanguage {
+  std::string_view name;       ///< "KUKA KRL"; empty: not a robot language
+  std::string_view dialect{};  ///< in which it is read; empty: not supported
+};
+
+/// The language of a robot program. Its first statement, after blank lines and comments, decides.
+RobotLanguage robot_language(std::string_view text);
 
 }  // namespace counterflex

@@ -1,6 +1,7 @@
 #include "program/write/step.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
@@ -74,10 +75,33 @@ void round_angle(const Move& move, const Via& via, const WriteOptions& options, 
   if (written.number.write) c = written;
 }
 
+/// Whether the four numbers of a quaternion in the text, which few digits make a little longer or shorter
+/// than 1, are those of the unit quaternion `wanted`.
+bool is_quaternion_of(const OrientationNumbers& text, const OrientationNumbers& wanted, int decimals) {
+  double squares = 0;
+  for (const double number : text) squares += number * number;
+  for (std::size_t i = 0; i < text.size(); ++i)
+    if (!rounds_to(text[i] / std::sqrt(squares), wanted[i], decimals)) return false;
+  return true;
+}
+
+/// The numbers of a quaternion that keep those of the text where these are the wanted orientation.
+OrientationNumbers kept_quaternion(const Move& move, const OrientationNumbers& wanted, const Step& step) {
+  const bool at_end = step.place != Place::inside;
+  if (!at_end && !step.before.orientation) return wanted;
+  const OrientationNumbers& text = at_end ? move.orientation->end : *step.before.orientation;
+  return is_quaternion_of(text, wanted, quaternion_decimals) ? text : wanted;
+}
+
 void round_orientation(const Move& move, const Via& via, Step& step) {
-  const OrientationNumbers wanted = via.orientation ? *via.orientation : move.orientation->end;
+  OrientationNumbers wanted = via.orientation ? *via.orientation : move.orientation->end;
+  if (move.orientation->form == OrientationForm::quaternion) wanted = kept_quaternion(move, wanted, step);
   OrientationNumbers& after = step.after.orientation.emplace();
-  for (std::size_t i = 0; i < step.angles.size(); ++i) {
+  if (move.relative) {  // a number in a relative block would be a difference: the orientation stays
+    after = step.before.orientation.value_or(move.orientation->end);
+    return;
+  }
+  for (std::size_t i = 0; i < number_count(move.orientation->form); ++i) {
     step.angles[i] = round_angle(move, i, step.before, wanted[i], step.place);
     after[i] = step.angles[i].value;
   }

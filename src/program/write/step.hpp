@@ -16,7 +16,7 @@ struct Step {
   Place place = Place::end;
   int motion = 1;  ///< G0, G1, G2 or G3
   std::array<Coordinate, 3> axes;
-  std::array<WordNumber, 3> angles{};  ///< A, B, C of a move that turns the tool
+  std::array<WordNumber, 4> angles{};  ///< of a move that turns the tool, by number
   TextPosition before, after;
   std::optional<ArcWords> arc;
 };

@@ -90,6 +90,35 @@ bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Plac
   return piece.arc->sweep > most + angle_that_digits_may_add;
 }
 
+/// The fraction of the auxiliary point on the arc of `piece`: as in the original for a piece of the same
+/// sweep, else the middle.
+double fraction_of_point(const Move& move, const Arc& piece) {
+  constexpr double most_other_sweep = 0.1;  // of the original's
+  const ArcMove& arc = *move.arc;
+  const double whole = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  if (std::abs(piece.sweep - whole) > most_other_sweep * whole) return 0.5;
+  return sweep_of(arc, move.start_mm, arc.through->p_mm, arc.centre_mm) / whole;
+}
+
+/// The auxiliary point, and the arc that a control reads through the rounded point.
+std::optional<ArcWords> round_point(const Move& move, const Via& via, Place place,
+                                    const WriteOptions& options, ArcWords words) {
+  const ArcMove& arc = *move.arc;
+  Curve wanted{words.curve.start, via.end_mm, Arc{*via.centre_mm, normal_of(arc), 0}};
+  wanted.arc->sweep = sweep_of(arc, wanted.start, wanted.end, *via.centre_mm);
+  const Vector3 point = point_at(wanted, fraction_of_point(move, *wanted.arc));
+  Vector3 written;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const double unit = mm_per(move.unit);
+    words.centre[axis] = round_number(move, arc.centre_words[axis], component(arc.through->p_mm, axis) / unit,
+                                      component(point, axis) / unit, place, options);
+    written[static_cast<Eigen::Index>(axis)] = words.centre[axis].value * unit;
+  }
+  words.curve.arc = arc_through(words.curve.start, written, words.curve.end);
+  if (!words.curve.arc || words.curve.arc->normal.dot(normal_of(arc)) <= 0) return std::nullopt;
+  return words;
+}
+
 }  // namespace
 
 Curve polar_arc(const Move& move, const Vector3& start, const Vector3& centre_mm) {
@@ -113,6 +142,7 @@ std::optional<ArcWords> round_arc(const Move& move, const Vector3& start, const 
   const ArcMove& arc = *move.arc;
   ArcWords words;
   words.curve = {start, end, Arc{start, normal_of(arc), 0}};
+  if (arc.through) return round_point(move, via, place, options, words);
   if (arc.radius_word) {
     if (across(end - start, arc).isZero(0)) return std::nullopt;
     round_radius(move, *via.centre_mm, place, options, words);

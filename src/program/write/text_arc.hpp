@@ -5,9 +5,10 @@
 namespace counterflex {
 
 struct ArcWords {
-  std::array<WordNumber, 3> centre;  ///< I J K of the plane's axes; not set if the block has a radius
-  WordNumber radius;                 ///< R of the block
-  Curve curve;                       ///< as read back, program coordinates, mm
+  /// I J K of the plane's axes, or X Y Z of the auxiliary point; not set if the block has a radius.
+  std::array<WordNumber, 3> centre;
+  WordNumber radius;  ///< R of the block
+  Curve curve;        ///< as read back, program coordinates, mm
 };
 
 /// Whether `axis` lies in the arc's plane.

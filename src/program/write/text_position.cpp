@@ -13,7 +13,21 @@ namespace counterflex {
 namespace {
 
 constexpr int no_decimals = -1;
-constexpr int angle_decimals = 4;  // deg: half of the last digit is a 400th of the tolerance of tilt
+
+/// Digits of the numbers of an orientation: half of the last one is a 400th of the tolerance of tilt, or
+/// less.
+constexpr int orientation_decimals(OrientationForm form) {
+  switch (form) {
+    case OrientationForm::quaternion:
+      return quaternion_decimals;
+    case OrientationForm::rotation_vector:
+    case OrientationForm::axis:
+      return 6;  // rad
+    case OrientationForm::fixed_axes:
+      break;
+  }
+  return 4;  // deg
+}
 
 /// Digits of a word that has `shown` digits, or of an inserted word.
 int decimals_of_word(const Move& move, int shown, Place place, const WriteOptions& options) {
@@ -128,6 +142,7 @@ WordNumber round_angle(const Move& move, std::size_t i, const TextPosition& befo
                        Place place) {
   const MoveOrientation& orientation = *move.orientation;
   const PackedAxisWord& word = orientation.words[i];
+  const int angle_decimals = orientation_decimals(orientation.form);
   if (word && place != Place::inside) {
     const int decimals = std::max(angle_decimals, word->decimals);
     if (rounds_to(orientation.end[i], wanted, decimals)) return {false, orientation.end[i], decimals};

@@ -4,6 +4,10 @@
 
 namespace counterflex {
 
+/// Digits of the numbers of a quaternion: half of the last one turns the tool by 1e-5 deg or
+/// less.
+inline constexpr int quaternion_decimals = 7;
+
 /// The number of a length word in the written text.
 struct WordNumber {
   bool write = false;  ///< changed or inserted
@@ -36,7 +40,7 @@ double shown_number(const Move& move, const AxisWord& word, double length_mm);
 Coordinate round_axis(const Move& move, std::size_t axis, const TextPosition& before, double wanted_mm,
                       Place place, const WriteOptions& options);
 
-/// The angle `i` (deg) of a point of a move that turns the tool by A, B and C, for `wanted`.
+/// The number `i` of the orientation at a point of a move that turns the tool, for `wanted`.
 WordNumber round_angle(const Move& move, std::size_t i, const TextPosition& before, double wanted,
                        Place place);
 

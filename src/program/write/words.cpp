@@ -100,7 +100,7 @@ bool is_angle_or_centre(const Word& word) {
 /// A, B and C.
 void angle_changes(const Original& o, const Step& step, Changes& changes) {
   std::vector<std::string> inserted;
-  for (std::size_t i = 0; i < step.angles.size(); ++i) {
+  for (std::size_t i = 0; i < angle_letters.size(); ++i) {
     if (!step.angles[i].write) continue;
     if (const auto& word = o.move.orientation->words[i])
       change_word(o, *word, step.angles[i], changes);
@@ -300,7 +300,7 @@ std::string inserted_block(const Original& o, const Step& step, const BesidesPoi
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (step.after[axis] && step.after[axis] != step.before[axis])
       append(o, point_text(o, axis, step.axes[axis].number), line);
-  for (std::size_t i = 0; i < step.angles.size(); ++i)
+  for (std::size_t i = 0; i < angle_letters.size(); ++i)
     if (o.move.orientation &&
         !(step.before.orientation && (*step.before.orientation)[i] == step.angles[i].value))
       append(o, word_text(o, angle_letters[i], step.angles[i]), line);

@@ -38,6 +38,16 @@ std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::
   return tightest;
 }
 
+double actuator_distance(const Mechanism& mechanism, const Eigen::VectorXd& a, const Eigen::VectorXd& b) {
+  Eigen::VectorXd apart = a - b;
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i)
+    if (mechanism.travel[i].kind == JointKind::revolute) {
+      double& angle = apart[static_cast<Eigen::Index>(i)];
+      angle = std::remainder(angle, 2 * pi);
+    }
+  return apart.norm();
+}
+
 std::string axis_value(const Travel& travel, double value) {
   const double limit = (value < travel.min ? travel.min : travel.max) / unit_of(travel);
   return fmt::format("{} {}", format_beside(value / unit_of(travel), limit, 1), unit_name(travel));

@@ -253,13 +253,15 @@ bool BatchSolver::joins(const TurnedPlace& from, const TurnedPlace& to) {
   const double limit = same_place * table.model.mechanism.length;
   const bool are_neighbours = (from.p - to.p).cwiseAbs().maxCoeff() <= table.edge;
   if (are_neighbours && batch.accepted[0] != 0 && batch.accepted[1] != 0 &&
-      (batch.rho_of(0) - batch.rho_of(1)).norm() < limit)
+      actuator_distance(table.model.mechanism, batch.rho_of(0), batch.rho_of(1)) < limit)
     return true;
   const NominalResult start = follow(table.model, begin->nominal, {impl_->orientation_of(from), from.p});
   if (start.status != Status::converged) return false;
   const NominalResult followed = follow(table.model, start.configuration, {impl_->orientation_of(to), to.p});
   return followed.status == Status::converged && batch.accepted[0] != 0 &&
-         (actuator_values(table.model.mechanism, followed.configuration) - batch.rho_of(0)).norm() < limit;
+         actuator_distance(table.model.mechanism,
+                           actuator_values(table.model.mechanism, followed.configuration),
+                           batch.rho_of(0)) < limit;
 }
 
 }  // namespace counterflex

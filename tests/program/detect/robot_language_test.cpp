@@ -24,12 +24,7 @@ std::string refusal_of_robot(const std::string& text, const std::string& dialect
 
 TEST_CASE("a robot program is refused with the name of its language, in any dialect option") {
   const std::pair<const char*, const char*> programs[] = {
-      {"&ACCESS RVO1\r\nDEF Test1 ( )\r\n", "KUKA KRL"},
-      {"\n;FOLD\nDEF Test1()\nPTP HOME\n", "KUKA KRL"},
-      {"MODULE MainModule\n  PROC main()\n", "ABB RAPID"},
-      {"%%%\n  VERSION:1\n%%%\nMODULE a\n", "ABB RAPID"},
       {"/PROG cub\n/ATTR\n", "FANUC TP (LS)"},
-      {"# pick\ndef Program():\n  movej([0,0,0,0,0,0])\n", "URScript"},
       {"/JOB\n//NAME A\n", "Yaskawa INFORM (JBI)"},
   };
   for (const auto& [text, language] : programs)
@@ -46,4 +41,43 @@ TEST_CASE("programs that begin like a robot's are read as G-code") {
   CHECK(refusal_of_robot("%\nO1001\nG21\nG0 X1\n%\n") == "");
   CHECK(refusal_of_robot("/G21 G0 X1\n") == "");
   CHECK(refusal_of_robot("(MODULE A)\nG21 G0 X1\n") == "");
+}
+
+TEST_CASE("ABB RAPID is read, and refused in another dialect option") {
+  for (const char* text : {"MODULE MainModule\n  PROC main()\n  ENDPROC\nENDMODULE\n",
+                           "! by hand\r\n%%%\r\n  VERSION:1\r\n%%%\r\nmodule a\r\nENDMODULE\r\n"}) {
+    CHECK(refusal_of_robot(text) == "");
+    CHECK(refusal_of_robot(text, "abb") == "");
+    CHECK(refusal_of_robot(text, "kuka") ==
+          "job:1:1: error: this is a program in ABB RAPID, not in dialect 'kuka'; use auto or abb");
+  }
+}
+
+TEST_CASE("KUKA KRL is read, and refused in another dialect option") {
+  for (const char* text : {"&ACCESS RVO1\r\nDEF Test1 ( )\r\nEND\r\n", "\n;FOLD\nDEF Test1()\nEND\n"}) {
+    CHECK(refusal_of_robot(text) == "");
+    CHECK(refusal_of_robot(text, "kuka") == "");
+    CHECK(refusal_of_robot(text, "heidenhain") ==
+          "job:1:1: error: this is a program in KUKA KRL, not in dialect 'heidenhain'; use auto or kuka");
+  }
+}
+
+TEST_CASE("URScript is read, and refused in another dialect option") {
+  for (const char* text :
+       {"# pick\ndef Program():\n  movej([0,0,0,0,0,0])\nend\n", "set_tcp(p[0,0,0,0,0,0])\r\n"}) {
+    CHECK(refusal_of_robot(text) == "");
+    CHECK(refusal_of_robot(text, "ur") == "");
+    CHECK(refusal_of_robot(text, "kuka") ==
+          "job:1:1: error: this is a program in URScript, not in dialect 'kuka'; use auto or ur");
+  }
+}
+
+TEST_CASE("APT is read, and refused in another dialect option") {
+  for (const char* text :
+       {"PARTNO A\nFINI\n", "\xEF\xBB\xBFGOTO / 1,2,3\r\n", "$$ made by hand\nTOOL PATH/A\nGOTO/1,2,3\n"}) {
+    ReadOptions options{.unit = LengthUnit::millimetres};
+    CHECK(read_program(text, "job", options).dialect == "apt");
+    CHECK(refusal_of_robot(text, "ur") ==
+          "job:1:1: error: this is a program in APT, not in dialect 'ur'; use auto or apt");
+  }
 }

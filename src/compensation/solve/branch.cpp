@@ -1,0 +1,111 @@
+#include "compensation/solve/branch.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/solve/failures.hpp"
+#include "compensation/solve/solver.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/statics/arm_margins.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double least_arm_margin = 1 * deg;
+
+// An arm that is so near to another configuration that a corrected target might be reached in it.
+std::optional<Failure> configuration_failure(const Model& model, const Configuration& nominal, int line) {
+  const auto margin = arm_margin(model, nominal);
+  if (!margin || margin->angle >= least_arm_margin) return std::nullopt;
+  return Failure{ErrorKind::not_compensated, line,
+                 fmt::format("the arm is {:.2f} deg from another configuration ({}); at least {:.0f} deg is "
+                             "needed: turn the tool about its axis, or move the part",
+                             margin->angle / deg, margin->what, least_arm_margin / deg)};
+}
+
+// Full turns by which `values` are nearest to `near`: for rotary actuators, else zero (rad).
+Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& values,
+                           const Eigen::VectorXd& near) {
+  Eigen::VectorXd turns = Eigen::VectorXd::Zero(values.size());
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i)
+    if (const auto k = static_cast<Eigen::Index>(i); mechanism.travel[i].kind == JointKind::revolute)
+      turns[k] = 2 * pi * std::round((near[k] - values[k]) / (2 * pi));
+  return turns;
+}
+
+void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd& values, int line) {
+  if (way.first.size() != values.size()) {
+    way = {values, values, {}, {}};
+    way.least.resize(mechanism.travel.size(), {HUGE_VAL, line});
+    way.most.resize(mechanism.travel.size(), {-HUGE_VAL, line});
+  }
+  way.last = values + full_turns(mechanism, values, way.last);
+  for (std::size_t i = 0; i < way.least.size(); ++i) {
+    const double value = way.last[static_cast<Eigen::Index>(i)];
+    if (value < way.least[i].value) way.least[i] = {value, line};
+    if (value > way.most[i].value) way.most[i] = {value, line};
+  }
+}
+
+// The branch is followed straight from place to place: around an arc and a turn in steps of 22.5 degrees.
+int parts_of(const Segment& segment) {
+  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0, turn_of(segment));
+  return 1 + static_cast<int>(turned / (pi / 8));
+}
+
+}  // namespace
+
+FollowedPath follow_branch(const Job& job) {
+  PlaceSolver solver(job);
+  FollowedPath followed;
+  std::optional<TipPosition> at = job.from;
+  for (const Segment& segment : job.path.segments) {
+    const Model& model = model_of(job, segment);
+    const int parts = parts_of(segment);
+    for (int k = 0; k <= parts; ++k) {
+      const double u = static_cast<double>(k) / parts;
+      const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
+      const bool joins = at && at->model == &model;
+      if (joins && at->p_MT == next.p_MT && at->R_MT == next.R_MT &&
+          !(next.R_MT && followed.way.first.size() == 0))
+        continue;
+      Status status = joins ? solver.join(*at, next) : Status::converged;
+      at = next;
+      if (status == Status::converged && (next.R_MT || !joins)) {
+        const NominalResult there = solver.nominal(next);
+        status = there.status;
+        if (status == Status::converged && next.R_MT) {
+          add_to(followed.way, model.mechanism, actuator_values(model.mechanism, there.configuration),
+                 segment.line);
+          followed.failure = configuration_failure(model, there.configuration, segment.line);
+        }
+      }
+      if (status != Status::converged) followed.failure = status_failure(job, status, segment, next.p_MT);
+      if (followed.failure) return followed;
+    }
+  }
+  return followed;
+}
+
+std::optional<Failure> turns_failure(const Job& job, const ActuatorWay& way, Eigen::VectorXd& last) {
+  if (way.first.size() == 0) return std::nullopt;
+  const Mechanism& mechanism = job.model.mechanism;
+  if (last.size() != way.first.size()) last = way.first;
+  const Eigen::VectorXd turns = full_turns(mechanism, way.first, last);
+  last = way.last + turns;
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
+    const Travel& travel = mechanism.travel[i];
+    for (ActuatorWay::Extreme extreme : {way.least[i], way.most[i]}) {
+      extreme.value += turns[static_cast<Eigen::Index>(i)];
+      if (extreme.value >= travel.min && extreme.value <= travel.max) continue;
+      return Failure{ErrorKind::limit, extreme.line,
+                     outside_travel_words(travel, extreme.value) + ", counted on over full turns from home",
+                     0, Status::outside_travel};
+    }
+  }
+  return std::nullopt;
+}
+
+}  // namespace counterflex

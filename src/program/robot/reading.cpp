@@ -1,0 +1,213 @@
+#include "program/robot/reading.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <utility>
+
+#include "program/gcode/frames.hpp"
+#include "program/text/arc_radius.hpp"
+#include "program/text/force_comment.hpp"
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+bool orientation_is_known(const RobotReading& r) {
+  if (!r.turns) return true;
+  const auto count = static_cast<std::ptrdiff_t>(number_count(r.form));
+  const auto& known = r.state.known_orientation;
+  return std::all_of(known.begin(), known.begin() + count, [](bool is_known) { return is_known; });
+}
+
+std::array<bool, 3> known_axes(const RobotReading& r) {
+  return orientation_is_known(r) ? r.state.known_position : std::array<bool, 3>{};
+}
+
+void place_position(const RobotTarget& target, bool relative, RobotState& state, Move& move) {
+  move.relative = relative;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto& number = target.position[axis];
+    if (!number) continue;
+    double& position_mm = state.position_mm[static_cast<Eigen::Index>(axis)];
+    position_mm = relative ? position_mm + number->value : number->value;
+    state.known_position[axis] = !relative || state.known_position[axis];
+    if (state.known_position[axis]) move.words[axis] = number->word();
+  }
+}
+
+void place_orientation(const RobotTarget& target, RobotReading& r, Move& move) {
+  if (!r.turns) return;
+  RobotState& state = r.state;
+  MoveOrientation orientation{.form = r.form, .start = state.orientation};
+  for (std::size_t i = 0; i < number_count(r.form); ++i) {
+    if (!target.orientation[i]) continue;
+    state.orientation[i] = target.orientation[i]->value;
+    state.known_orientation[i] = true;
+    orientation.words[i] = target.orientation[i]->word();
+  }
+  orientation.end = state.orientation;
+  if (!all_known(move.known_start)) orientation.start = orientation.end;
+  if (orientation_is_known(r)) move.orientation = orientation;
+}
+
+/// Whether external axes stay, so that a copy of the statement may end anywhere on the path.
+bool place_external(const RobotTarget& target, RobotReading& r, int line) {
+  RobotState& state = r.state;
+  bool stay = true;
+  for (std::size_t i = 0; i < target.external.size(); ++i) {
+    if (!target.external[i]) continue;
+    stay = stay && state.external[i] == target.external[i];
+    state.external[i] = target.external[i];
+    std::optional<double>& first = state.first_external[i];
+    if (!first) first = target.external[i];
+    if (*first == *target.external[i] || r.program.external_axes_move) continue;
+    r.program.external_axes_move = Remark{
+        line,
+        fmt::format("external axis {} moves from {} to {}: the machine file has no such axis; keep it in "
+                    "one place in a program, and put that place into the machine file",
+                    i + 1, *first, *target.external[i])};
+  }
+  return stay;
+}
+
+/// A line at whose end the robot stops is not split: it would stop at each inserted point, too, and leave a
+/// mark. An inserted statement is a copy: external axes that move would be at their end too early.
+void allow_changes(const TargetMove& how, bool external_stay, Move& move) {
+  const bool line = move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end);
+  move.exact_stop = move.motion == Motion::feed && !how.passes;
+  move.may_split = line && how.passes && external_stay;
+  move.may_jump = move.may_split && move.feed_mm_min > 0;
+}
+
+}  // namespace
+
+Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
+  RobotState& state = r.state;
+  Move move;
+  move.line = line.line;
+  move.block_index = r.program.block_count - 1;
+  move.block = line.span;
+  move.motion = motion;
+  move.known_start = known_axes(r);
+  move.moved_only_by_program.fill(!state.moved_by_machine);
+  move.start_mm = move.end_mm = state.position_mm;
+  move.unit = state.unit;
+  move.feed_mm_min = state.feed_mm_min;
+  move.spindle_rpm = state.spindle_rpm;
+  move.frame = state.frame;
+  move.tool = state.tool;
+  move.operation = r.operation.index_in(r.program, motion, state.tool);
+  move.force = state.force;
+  state.moved_by_machine = false;
+  return move;
+}
+
+void end_at_target(RobotReading& r, const RobotTarget& target, const TargetMove& how, Move& move) {
+  place_position(target, how.relative, r.state, move);
+  place_orientation(target, r, move);
+  if (!orientation_is_known(r)) forget_position(r);  // until one target has all of its numbers
+  move.end_mm = r.state.position_mm;
+  move.known_end = known_axes(r);
+  allow_changes(how, place_external(target, r, move.line), move);
+  if (all_known(move.known_end)) return r.last_reason.clear();
+  note_uncorrected(
+      r, {.line = move.line},
+      "the position or the orientation of the tool is not known: program a target with all numbers "
+      "first");
+}
+
+bool go_through(const RobotTarget& point, Move& move) {
+  if (!all_known(move.known_start) || !all_known(move.known_end) || move.relative) return false;
+  ArcMove way;
+  ArcPoint through;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    if (!point.position[axis]) return false;
+    through.p_mm[static_cast<Eigen::Index>(axis)] = point.position[axis]->value;
+    way.centre_words[axis] = point.position[axis]->word();
+  }
+  constexpr double largest_radius_mm = 1e6;  // a larger circle is a line: its centre is known badly
+  const auto arc = arc_through(move.start_mm, through.p_mm, move.end_mm);
+  if (!arc || !((arc->centre - move.start_mm).norm() < largest_radius_mm)) return false;
+  through.normal = arc->normal;
+  Eigen::Index nearest = 0;
+  arc->normal.cwiseAbs().maxCoeff(&nearest);
+  way.normal = static_cast<int>(nearest);
+  way.clockwise = arc->normal[nearest] < 0;
+  way.centre_mm = arc->centre;
+  way.through = through;
+  move.arc = way;
+  return true;
+}
+
+void add_target_move(RobotReading& r, const RobotLine& line, const RobotTarget& target,
+                     const TargetMove& how) {
+  Move move = begin_robot_move(r, line, how.motion);
+  end_at_target(r, target, how, move);
+  r.program.moves.push_back(std::move(move));
+}
+
+void add_unfollowed_move(RobotReading& r, const RobotLine& line, std::string why) {
+  Move move = begin_robot_move(r, line, Motion::feed);
+  move.fixed.fill(true);
+  move.may_insert_words = false;
+  forget_position(r);
+  r.state.external = {};
+  r.program.moves.push_back(std::move(move));
+  note_uncorrected(r, line, std::move(why));
+}
+
+void add_joint_move(RobotReading& r, const RobotLine& line, std::string why) {
+  forget_position(r);
+  r.state.external = {};
+  r.state.moved_by_machine = true;
+  r.last_reason = why;
+  r.program.left_alone.push_back({.line = line.line, .why = std::move(why), .machine_position = true});
+}
+
+void note_uncorrected(RobotReading& r, const RobotLine& line, std::string why) {
+  if (r.last_reason == why) return;
+  r.last_reason = why;
+  r.program.left_alone.push_back({.line = line.line, .why = std::move(why)});
+}
+
+void forget_position(RobotReading& r) {
+  r.state.known_position.fill(false);
+  r.state.known_orientation.fill(false);
+}
+
+void enter_robot_frame(RobotReading& r, const ProgramFrame& frame) {
+  const auto index = static_cast<std::uint32_t>(index_of_frame(r.program, frame));
+  if (index == r.state.frame) return;
+  r.state.frame = index;
+  r.state.moved_by_machine = true;
+  forget_position(r);
+}
+
+void enter_robot_tool(RobotReading& r, std::int32_t tool) {
+  r.state.tool = tool;
+  r.state.moved_by_machine = true;
+  forget_position(r);
+}
+
+void read_robot_comment(RobotReading& r, const RobotLine& line) {
+  if (empty(line.code) && empty(line.comment)) r.operation.expect_title();
+  if (empty(line.comment)) return;
+  Block place;
+  place.line = line.line;
+  place.span = line.span;
+  if (const auto force = read_force_comment(r.program.text, r.program.file, place, line.comment))
+    r.state.force = force->F;
+  else if (empty(line.code))
+    r.operation.name(part(r.program.text, line.comment), r.state.tool);
+}
+
+void refuse_conflict_marker(const RobotReading& r, const RobotLine& line) {
+  const std::string_view text = part(r.program.text, line.span);
+  for (const std::string_view marker : {"<<<<<<<", "=======", ">>>>>>>", "|||||||"})
+    if (text.starts_with(marker))
+      refuse(r.program.file, line, line.span.begin,
+             fmt::format("'{}' is a conflict marker of a version control system", marker));
+}
+
+}  // namespace counterflex

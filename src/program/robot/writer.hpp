@@ -1,0 +1,84 @@
+#pragma once
+/// Writes corrected robot programs: numbers of targets in their places, and copies of a move's own statement
+/// for inserted points. A language derives from it.
+#include <limits>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "program/program_writer.hpp"
+#include "program/robot/line.hpp"
+#include "program/write/step.hpp"
+
+namespace counterflex {
+
+/// Characters that replace a span of the program.
+struct TextChange {
+  Span span;
+  std::string text;
+};
+
+/// The numbers of a target to write; empty for a number that stays.
+struct TargetNumbers {
+  std::array<std::optional<WordNumber>, 3> through;  ///< X, Y, Z of the auxiliary point of an arc
+  std::array<std::optional<WordNumber>, 3> position;
+  std::array<std::optional<WordNumber>, 4> orientation;
+  OrientationNumbers turned{};  ///< all numbers of the written orientation, also those that stay
+  bool is_copy = false;         ///< for a copy of the statement, else for the statement itself
+  bool becomes_line = false;    ///< the statement of an arc becomes that of a line, without auxiliary point
+  std::optional<double> spacing_mm{};  ///< of a split move: the shorter distance to the points beside it
+};
+
+class RobotWriter : public ProgramWriter {
+ public:
+  RobotWriter(const Program& window, const WriteOptions& options, std::string_view comment_mark);
+
+  Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) override;
+
+ protected:
+  /// Position of the header: at the begin of a line, or at the end of the text.
+  virtual std::size_t header_position(const Program& program) const = 0;
+
+  /// Appends the changes that give the target of `move` these numbers. The default changes the words in their
+  /// places; the target must have all of them.
+  virtual void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
+                             std::vector<TextChange>& changes) const;
+
+  /// Appends the changes that shift all positions in the statement of `move` by `shift_mm`: of a held move
+  /// that has no words of its own. The default changes nothing.
+  virtual void shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
+                               std::vector<TextChange>& changes) const;
+
+  /// Adds or replaces changes that depend on several edits, when those of all edits are there: of a target
+  /// that several moves use, of zones beside inserted points. The default does nothing.
+  virtual void finish_changes(const Program& program, const std::vector<MoveEdit>& edits,
+                              std::vector<TextChange>& changes) const;
+
+  /// The part of the line of `move` that a copy of its statement repeats, from the begin of the line. By
+  /// default all but the comment and the blanks before it.
+  virtual Span copied_part(const Program& program, const Move& move) const;
+
+  const std::string& line_end() const { return line_end_; }
+  const WriteOptions& options() const { return options_; }
+
+ private:
+  struct Output;
+  void add_header(Output& output) const;
+  void write_move(const MoveEdit& edit, Output& output);
+  void insert_point(const Move& move, const Via& via, int motion, double spacing_mm, std::string& text,
+                    Output& output);
+
+  WriteOptions options_;
+  std::string_view comment_mark_;
+  std::string line_end_;
+  TextPosition position_{};  ///< in the written text
+  bool begun_ = false;
+};
+
+/// The bytes `within` of `text` with `changes`, which are inside of them and are sorted here.
+std::string with_changes(std::string_view text, Span within, std::vector<TextChange>& changes);
+
+/// `value` with `decimals` digits in the style of the number at `number` of `text`.
+std::string number_text(std::string_view text, Span number, double value, int decimals);
+
+}  // namespace counterflex
