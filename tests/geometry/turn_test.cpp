@@ -48,7 +48,9 @@ TEST_CASE("an orientation keeps its numbers, in every form and at every branch")
       {Form::axis, {1e-9, 0, -1}},
       {Form::axis, {30, -40, 120}},  // length 130
   };
-  for (const auto& [form, numbers] : cases) {
+  for (const auto& one : cases) {
+    const Form form = one.first;
+    const OrientationNumbers& numbers = one.second;
     CAPTURE(static_cast<int>(form));
     CAPTURE(numbers[0]);
     CAPTURE(numbers[1]);
@@ -65,7 +67,9 @@ TEST_CASE("numbers of a rotation nearby are near, and give it") {
       {Form::rotation_vector, {pi - 1e-6, 0, 0}},  {Form::rotation_vector, {0, -pi, 0}},
       {Form::rotation_vector, {0, 2 * pi - 1, 0}},
   };
-  for (const auto& [form, numbers] : cases) {
+  for (const auto& one : cases) {
+    const Form form = one.first;
+    const OrientationNumbers& numbers = one.second;
     CAPTURE(static_cast<int>(form));
     CAPTURE(numbers[0]);
     CAPTURE(numbers[1]);

@@ -158,8 +158,9 @@ void UrWriter::change_named_targets(const Program& program, const std::vector<Mo
     by_name[std::string(part(text, operand))].push_back({operand, end_changes(text, move, numbers)});
   }
   for (auto& [name, uses] : by_name) {
-    const auto is_like_first = [&](const Use& use) {
-      return std::ranges::equal(use.own, uses.front().own, [](const TextChange& a, const TextChange& b) {
+    const Use& first = uses.front();
+    const auto is_like_first = [&first](const Use& use) {
+      return std::ranges::equal(use.own, first.own, [](const TextChange& a, const TextChange& b) {
         return a.span.begin == b.span.begin && a.text == b.text;
       });
     };

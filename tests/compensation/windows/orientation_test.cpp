@@ -2,11 +2,14 @@
 // does is judged by an arm of this test's own: products of homogeneous matrices, joints that give way by the
 // moment about them. It shares nothing with the product's statics.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <Eigen/Geometry>
 #include <Eigen/LU>
 #include <array>
 #include <cmath>
+#include <regex>
+#include <vector>
 
 #include "compensation/support/shop.hpp"
 #include "counterflex/program/rewrite.hpp"
@@ -285,4 +288,137 @@ TEST_CASE("a turn about the tool's axis is judged only where its tolerance is gi
   const auto failure = verify(shop.job(), spun, false).failure;
   REQUIRE(failure);
   CHECK(failure->what.find("about its axis") != std::string::npos);
+}
+
+namespace {
+
+/// Targets of one path: position (mm), and angles about fixed axes (deg); the first and the last one are
+/// rapids.
+struct PathTarget {
+  Vector3 p_mm, abc_deg;
+};
+const std::vector<PathTarget> targets{{{1730, 40, 640}, {0, 0, 0}},   {{1730, 40, 600}, {0, 0, 0}},
+                                      {{1850, 50, 601}, {12, -8, 0}}, {{1890, 110, 600}, {-10, 10, 40}},
+                                      {{1760, 60, 610}, {3, 0, -20}}, {{1760, 60, 650}, {0, 0, 0}}};
+
+Eigen::Quaterniond quaternion(const PathTarget& t) {
+  return Eigen::Quaterniond(rotation_of_words(t.abc_deg));
+}
+
+/// A language: how it writes a target, and how this test finds the numbers of one in a text.
+struct Language {
+  const char *name, *head, *tail;
+  std::string (*statement)(const PathTarget&, bool rapid);
+  std::regex target;
+  Pose (*pose)(const std::array<double, 7>&);
+};
+
+Pose of_angles(const Vector3& p_mm, const Vector3& abc_deg) {
+  return {rotation_of_words(abc_deg), p_mm * mm};
+}
+
+const std::string number = "(-?[0-9.]+)";
+
+std::vector<Language> languages() {
+  return {
+      {"linuxcnc", "G21 G90\n", "M30\n",
+       [](const PathTarget& t, bool rapid) {
+         return fmt::format("{} X{:.6f} Y{:.6f} Z{:.6f} A{:.6f} B{:.6f} C{:.6f} F1500\n", rapid ? "G0" : "G1",
+                            t.p_mm.x(), t.p_mm.y(), t.p_mm.z(), t.abc_deg.x(), t.abc_deg.y(), t.abc_deg.z());
+       },
+       std::regex("X" + number + " Y" + number + " Z" + number + " A" + number + " B" + number + " C" +
+                  number),
+       [](const std::array<double, 7>& n) {
+         return of_angles({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+       }},
+      {"kuka", "DEF part( )\n$VEL.CP=0.025\n", "END\n",
+       [](const PathTarget& t, bool rapid) {
+         return fmt::format("{} {{X {:.6f},Y {:.6f},Z {:.6f},A {:.6f},B {:.6f},C {:.6f}}}{}\n",
+                            rapid ? "PTP" : "LIN", t.p_mm.x(), t.p_mm.y(), t.p_mm.z(), t.abc_deg.z(),
+                            t.abc_deg.y(), t.abc_deg.x(), rapid ? "" : " C_DIS");
+       },
+       std::regex("X " + number + ",Y " + number + ",Z " + number + ",A " + number + ",B " + number + ",C " +
+                  number),
+       [](const std::array<double, 7>& n) {
+         return of_angles({n[0], n[1], n[2]}, {n[5], n[4], n[3]});
+       }},
+      {"abb", "MODULE part\nPROC main()\n", "ENDPROC\nENDMODULE\n",
+       [](const PathTarget& t, bool rapid) {
+         const Eigen::Quaterniond q = quaternion(t);
+         return fmt::format(
+             "{} [[{:.6f},{:.6f},{:.6f}],[{:.9f},{:.9f},{:.9f},{:.9f}],[0,0,0,0],"
+             "[9E9,9E9,9E9,9E9,9E9,9E9]],v25,z1,tool0;\n",
+             rapid ? "MoveJ" : "MoveL", t.p_mm.x(), t.p_mm.y(), t.p_mm.z(), q.w(), q.x(), q.y(), q.z());
+       },
+       std::regex("\\[\\[" + number + "," + number + "," + number + "\\],\\[" + number + "," + number + "," +
+                  number + "," + number + "\\]"),
+       [](const std::array<double, 7>& n) {
+         return Pose{Eigen::Quaterniond(n[3], n[4], n[5], n[6]).normalized().toRotationMatrix(),
+                     Vector3(n[0], n[1], n[2]) * mm};
+       }},
+      {"ur", "def part():\n", "end\n",
+       [](const PathTarget& t, bool rapid) {
+         const Eigen::AngleAxisd turn(quaternion(t));
+         const Vector3 p = t.p_mm * mm, phi = turn.angle() * turn.axis();
+         return fmt::format("  {}(p[{:.9f},{:.9f},{:.9f},{:.9f},{:.9f},{:.9f}],a=1,v=0.025{})\n",
+                            rapid ? "movej" : "movel", p.x(), p.y(), p.z(), phi.x(), phi.y(), phi.z(),
+                            rapid ? "" : ",r=0.001");
+       },
+       std::regex("p\\[" + number + "," + number + "," + number + "," + number + "," + number + "," + number +
+                  "\\]"),
+       [](const std::array<double, 7>& n) {
+         const Vector3 phi(n[3], n[4], n[5]);
+         return Pose{Eigen::AngleAxisd(phi.norm(), phi.stableNormalized()).toRotationMatrix(),
+                     Vector3(n[0], n[1], n[2])};
+       }},
+  };
+}
+
+/// The poses of the targets in a text, in order.
+std::vector<Pose> poses_in(const std::string& text, const Language& language) {
+  std::vector<Pose> poses;
+  for (std::sregex_iterator at(text.begin(), text.end(), language.target), end; at != end; ++at) {
+    std::array<double, 7> numbers{};
+    for (std::size_t i = 1; i < at->size(); ++i) numbers[i - 1] = std::stod((*at)[i]);
+    poses.push_back(language.pose(numbers));
+  }
+  return poses;
+}
+
+/// The pose nearest to a target of the original: its own corrected one.
+Pose corrected(const std::vector<Pose>& poses, const PathTarget& target) {
+  const auto off = [&](const Pose& X) {
+    return (X.p - target.p_mm * mm).norm() + 0.01 * angle_between(X.R, rotation_of_words(target.abc_deg));
+  };
+  return *std::min_element(poses.begin(), poses.end(),
+                           [&](const Pose& a, const Pose& b) { return off(a) < off(b); });
+}
+
+}  // namespace
+
+TEST_CASE("one path in four languages has the same corrected targets, to the written digit") {
+  std::vector<std::vector<Pose>> found;
+  for (const Language& language : languages()) {
+    CAPTURE(language.name);
+    std::string text = language.head;
+    for (std::size_t i = 0; i < targets.size(); ++i)
+      text += language.statement(targets[i], i == 0 || i + 1 == targets.size());
+    Order order = turning_order(text + language.tail);
+    order.X_MW = {};
+    order.read.dialect = language.name;
+    const Compensation result = compensated(Shop(order));
+    const std::vector<Pose> poses = poses_in(result.text, language);
+    REQUIRE(poses.size() > targets.size());  // points were inserted
+    std::vector<Pose>& of_targets = found.emplace_back();
+    for (const PathTarget& target : targets) of_targets.push_back(corrected(poses, target));
+    of_targets.front() = poses.front();  // the first cut begins beside it, where a point was inserted
+  }
+  for (std::size_t k = 1; k < found.size(); ++k)
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      CAPTURE(k);
+      CAPTURE(i);
+      CHECK((found[k][i].p - found[0][i].p).norm() < 2e-9);
+      CHECK(angle_between(found[k][i].R, found[0][i].R) < 5e-8);
+      CHECK((found[k][i].p - targets[i].p_mm * mm).norm() > 1e-5);  // they were corrected
+    }
 }
