@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
