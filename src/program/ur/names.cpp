@@ -28,7 +28,7 @@ void count_names(std::string_view text, Span code, UrNames& names) {
   }
 }
 
-void assign(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
+void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
   constexpr std::size_t not_once = 2;
   UrVariable& variable = names.variables[std::string(part(text, assignment.variable))];
   variable.assigned += assignment.of_member ? not_once : 1;
@@ -75,7 +75,7 @@ UrNames ur_names(std::string_view text) {
     if (ur_opens_body(word)) ++depth;
     if (word == "end") depth = std::max(depth - 1, 0);
     const auto assignment = ur_assignment(text, line.code);
-    if (assignment) assign(text, *assignment, depth > depth_of_program, names);
+    if (assignment) add_assignment(text, *assignment, depth > depth_of_program, names);
     count_names(text, assignment ? assignment->value : line.code, names);
   }
   return names;
