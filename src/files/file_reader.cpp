@@ -37,12 +37,17 @@ struct FileReader::State {
   off_t start = 0;                      ///< of the unread part of standard input
   std::optional<struct stat> opened{};  ///< state of the file when it was opened, to detect changes
   std::optional<std::string> held{};    ///< instead of a file
+  std::vector<FileReader> parts{};      ///< instead of a file
+  std::size_t part = 0;                 ///< the part that is read
   std::size_t next = 0;                 ///< next byte to read, counted from `start`
   std::optional<Sha256> hash{};
   std::size_t hashed = 0;  ///< bytes included in `hash`
   std::string digits{};    ///< of the hash of the file, after its end has been read
 
   std::size_t append(std::string& bytes, std::size_t most) {
+    for (; part < parts.size(); ++part)
+      if (const std::size_t count = parts[part].append(bytes, most); count > 0) return count;
+    if (!parts.empty()) return 0;
     if (held) {
       const std::size_t count = std::min(most, held->size() - next);
       bytes.append(*held, next, count);
@@ -90,6 +95,12 @@ FileReader FileReader::of_bytes(std::string bytes) {
   return reader;
 }
 
+FileReader FileReader::joined(std::vector<FileReader> parts) {
+  FileReader reader;
+  reader.state_->parts = std::move(parts);
+  return reader;
+}
+
 FileReader::~FileReader() = default;
 FileReader::FileReader(FileReader&&) noexcept = default;
 
@@ -103,11 +114,14 @@ std::size_t FileReader::append(std::string& bytes, std::size_t most) {
 
 void FileReader::rewind() {
   state_->next = 0;
-  if (state_->held) return;
+  state_->part = 0;
+  for (FileReader& part : state_->parts) part.rewind();
+  if (state_->held || !state_->parts.empty()) return;
   if (::lseek(state_->file.get(), state_->start, SEEK_SET) < 0) fail_reading(state_->path);
 }
 
 void FileReader::refuse_change() const {
+  for (const FileReader& part : state_->parts) part.refuse_change();
   if (!state_->opened) return;
   struct stat now {};
   const struct stat& then = *state_->opened;

@@ -59,6 +59,7 @@ void BlockReader::begin_window(std::size_t read, std::optional<Move> first) {
     program_.moves.push_back(std::move(*first));
   }
   program_.left_alone.clear();
+  program_.counts.clear();
   program_.text.clear();
   resume_behind(read);
 }
@@ -79,9 +80,11 @@ void BlockReader::take_window(Program& to) {
   to.text.swap(program_.text);
   to.moves.swap(program_.moves);
   to.left_alone.swap(program_.left_alone);
+  to.counts.swap(program_.counts);
   program_.text.clear();
   program_.moves.clear();
   program_.left_alone.clear();
+  program_.counts.clear();
   if (!to.moves.empty()) program_.before = to.moves.back();
 }
 

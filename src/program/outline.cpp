@@ -79,7 +79,7 @@ void OutlineScan::add(std::string_view blocks) {
   if (dialect_.name == klartext_name)
     klartext_.add(blocks);
   else if (dialect_.name == kuka_name)
-    outline_.named_targets = outline_.named_targets || names_targets(blocks);
+    add_krl(blocks);
   else if (dialect_.name == abb_name)
     rapid_.add(blocks);
   else if (dialect_.name == ur_name)
@@ -88,6 +88,16 @@ void OutlineScan::add(std::string_view blocks) {
     outline_.tool_axes = outline_.tool_axes || gives_tool_axes(blocks);
   else
     add_numbered(blocks);
+}
+
+void OutlineScan::add_krl(std::string_view lines) {
+  outline_.named_targets = outline_.named_targets || names_targets(lines);
+  if (!outline_.data_lists) {
+    const std::size_t list = data_list_at(lines);
+    outline_.data_lists = list < lines.size();
+    lines.remove_prefix(list);
+  }
+  if (!lines.empty()) add_elements(lines, outline_.arrays);
 }
 
 void OutlineScan::add_numbered(std::string_view lines) {

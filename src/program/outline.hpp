@@ -6,6 +6,7 @@
 
 #include "program/dialect.hpp"
 #include "program/klartext/labels.hpp"
+#include "program/kuka/loops.hpp"
 #include "program/rapid/module.hpp"
 
 namespace counterflex {
@@ -17,7 +18,9 @@ struct Outline {
   KlartextOutline klartext{};
   /// A robot program gives targets or other data names: moves depend on lines far from them.
   bool named_targets = false;
-  bool tool_axes = false;  ///< an APT program gives tool axes: GOTO/ with six numbers
+  bool data_lists = false;  ///< data lists follow a KUKA program
+  KrlArrays arrays{};       ///< of these data lists
+  bool tool_axes = false;   ///< an APT program gives tool axes: GOTO/ with six numbers
 };
 
 /// Scans a text once, in portions of whole blocks. Finds nothing in dialects of G-code without numbered
@@ -32,6 +35,7 @@ class OutlineScan {
 
  private:
   void add_numbered(std::string_view lines);
+  void add_krl(std::string_view lines);
 
   const Dialect& dialect_;
   bool begun_ = false;

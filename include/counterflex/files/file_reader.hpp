@@ -3,6 +3,7 @@
 #include <cstddef>
 #include <memory>
 #include <string>
+#include <vector>
 
 namespace counterflex {
 
@@ -13,7 +14,9 @@ namespace counterflex {
 class FileReader {
  public:
   explicit FileReader(const std::string& path);
-  static FileReader of_bytes(std::string bytes);  ///< reads what is held in memory
+  static FileReader of_bytes(std::string bytes);  ///< reads these bytes
+  /// Reads the bytes of all `parts`, which are at their beginnings, one after the other.
+  static FileReader joined(std::vector<FileReader> parts);
   ~FileReader();
   FileReader(FileReader&&) noexcept;
 

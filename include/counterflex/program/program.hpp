@@ -147,11 +147,18 @@ struct CornerEnds {
   double begin_mm = 0, end_mm = 0;
 };
 
+/// What a target states of the turns of rotary axes, beside its pose. A corrected target keeps it.
+enum class StatedTurns : std::uint8_t {
+  none,
+  signs,  ///< whether each rotary axis is negative: T of KUKA
+};
+
 /// The tool's orientation along a move of a six-axis machine, in program coordinates. The numbers are as
 /// programmed; those of a start are those at the end of the move before.
 struct MoveOrientation {
   OrientationForm form = OrientationForm::fixed_axes;
   bool by_angles = false;  ///< the control interpolates the angles; else it turns about one axis
+  StatedTurns stated_turns = StatedTurns::none;  ///< by the target
   OrientationNumbers start{}, end{};
   std::array<PackedAxisWord, 4> words;  ///< of the block, by number
 };
@@ -358,8 +365,8 @@ inline bool is_set(const ProgramFrame& frame) {
 /// The pose of `frame` in the coordinates of its work offset (mm).
 Pose in_offset(const ProgramFrame& frame);
 
-/// A program, or a window of one. In a window, `text` is some lines of the program, and `moves` and
-/// `left_alone` belong to these lines. The other members describe the program from its first line to the end
+/// A program, or a window of one. In a window, `text` is some lines of the program, and `moves`, `left_alone`
+/// and `counts` belong to these lines. The other members describe the program from its first line to the end
 /// of the window.
 struct Program {
   std::string file;
@@ -378,6 +385,9 @@ struct Program {
   /// The title of each of `operations`: the first comment after a tool change, a blank line or a rapid move.
   std::vector<std::string> operation_titles{""};
   std::vector<LeftAlone> left_alone;
+  /// Texts outside of moves that follow the number of targets or the name of the file: the end of a loop, the
+  /// size of its array, the name of a data list. In the order of the text.
+  std::vector<Span> counts;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
   /// The first target of a robot program whose external axes differ from those of the first target: a machine

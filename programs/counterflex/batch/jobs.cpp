@@ -26,7 +26,8 @@ namespace fs = std::filesystem;
 
 std::vector<std::string> files_read(const Options& options) {
   std::vector<std::string> files = options.forces;
-  files.push_back(options.program);
+  const std::vector<std::string> program = files_of_program(options.program, options.data_lists);
+  files.insert(files.end(), program.begin(), program.end());
   files.push_back(options.machine);
   if (options.tool_table) files.push_back(*options.tool_table);
   return files;
@@ -36,7 +37,8 @@ std::vector<std::string> files_read(const Options& options) {
 std::vector<Setting> environment_of(const std::string& from) {
   std::vector<Setting> settings = read_environment(environ);
   for (Setting& setting : settings)
-    if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table")
+    if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table" ||
+        setting.option == "data")
       for (std::string& path : setting.values)
         if (path != "-") path = (fs::path(from) / path).lexically_normal().native();
   return settings;

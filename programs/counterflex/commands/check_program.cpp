@@ -221,7 +221,7 @@ Checked check_program(const std::string& path, const Options& options, const Mac
   const ToolLengths lengths = read_tool_lengths(options, of);
   const ReadOptions read = read_options(options, of, lengths);
   const std::string name = shown_name(path);
-  ProgramFile file = open_program("program", path);
+  ProgramFile file = open_program("program", path, options.data_lists, console);
   try {
     const ProgramFacts facts = facts_of(ProgramReader(file.bytes, name, read));
     Checked checked{text_of(facts), "", json_of(facts)};

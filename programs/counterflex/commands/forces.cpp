@@ -53,7 +53,12 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   console.progress("reading");
   ToolLengths tools = read_tool_lengths(options, nullptr);
   const ReadOptions read = read_options(options, nullptr, tools);
-  BareRun run{std::move(tools), read, open_program("program", options.program), {}, {}, {}};
+  BareRun run{std::move(tools),
+              read,
+              open_program("program", options.program, options.data_lists, console),
+              {},
+              {},
+              {}};
   run.scan = scan_program(options, run.file, run.read, nullptr);
   run.force_input = read_force_input(options);
   run.work = place_work(options.work, run.scan.program);

@@ -4,6 +4,7 @@
 #include "commands/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "run/header_hashes.hpp"
+#include "run/outputs.hpp"
 #include "run/run.hpp"
 
 namespace counterflex::cli {
@@ -61,6 +62,14 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
                         {read, begun, solved, done});
 }
 
+/// The data lists of the corrected program: files of the same names beside it.
+std::vector<std::string> lists_beside_corrected(const Options& options) {
+  std::vector<std::string> lists;
+  for (const std::string& list : options.data_lists)
+    lists.push_back(corrected_list(list, options.program, options.verify.corrected));
+  return lists;
+}
+
 }  // namespace
 
 std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
@@ -69,7 +78,8 @@ std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   RunTally tally = tally_for(options, *run);
-  ProgramFile corrected = open_program("corrected", options.verify.corrected);
+  ProgramFile corrected =
+      open_program("corrected", options.verify.corrected, lists_beside_corrected(options), console);
   ReadOptions read = run->read;
   read.dialect = run->program.dialect;  // that of the original, independent of the name of the corrected file
   const CorrectedScan scan = scan_corrected(options, *run, read, corrected, tally);

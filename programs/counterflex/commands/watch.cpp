@@ -72,6 +72,7 @@ void refuse_shared_outputs(const Options& watch) {
 /// Reports errors that affect every program before the first one appears.
 void check_watch(const Options& options) {
   std::vector<std::string> read = options.forces;
+  read.insert(read.end(), options.data_lists.begin(), options.data_lists.end());
   read.push_back(options.machine);
   if (options.tool_table) read.push_back(*options.tool_table);
   if (std::ranges::find(read, "-") != read.end())

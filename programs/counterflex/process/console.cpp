@@ -4,11 +4,13 @@
 #include <poll.h>
 #include <unistd.h>
 
+#include <charconv>
 #include <cstdio>
 #include <cstdlib>
 #include <utility>
 
 #include "counterflex/files/text.hpp"
+#include "counterflex/program/program_files.hpp"
 #include "process/progress.hpp"
 
 namespace counterflex::cli {
@@ -78,9 +80,29 @@ void Console::erase_progress() {
   showing_progress_ = false;
 }
 
+void Console::name_lines(const std::string& name, const std::vector<std::string>& files,
+                         const std::vector<int>& first) {
+  joined_.insert_or_assign(name, JoinedFiles{files, first});
+}
+
+std::string Console::with_named_line(std::string_view diagnostic) const {
+  for (const auto& [name, joined] : joined_) {
+    if (!diagnostic.starts_with(name + ":")) continue;
+    const std::string_view rest = diagnostic.substr(name.size() + 1);
+    int line = 0;
+    const auto [end, error] = std::from_chars(rest.data(), rest.data() + rest.size(), line);
+    if (error != std::errc() || line < 1) continue;
+    const Location place = place_in_files(joined.files, joined.first, line);
+    return fmt::format("{}:{}{}", shown_name(place.file), place.line,
+                       rest.substr(static_cast<std::size_t>(end - rest.data())));
+  }
+  return std::string(diagnostic);
+}
+
 void Console::warning(const std::string& file, int line, std::string_view what) {
-  const std::string text = without_controls(line > 0 ? fmt::format("{}:{}: warning: {}", file, line, what)
-                                                     : fmt::format("{}: warning: {}", file, what));
+  const std::string text =
+      without_controls(line > 0 ? with_named_line(fmt::format("{}:{}: warning: {}", file, line, what))
+                                : fmt::format("{}: warning: {}", file, what));
   if (quiet_ || !texts_.insert(text).second || ++warnings_[file] > warnings_shown) return;
   erase_progress();
   write_error((colour_ ? painted(text, "warning", 35) : text) + "\n");
@@ -142,7 +164,7 @@ void Console::solved(std::size_t waypoints) {
 void Console::error(std::string_view diagnostic) {
   if (listener_.error) return listener_.error(diagnostic);
   erase_progress();
-  const std::string text = without_controls(diagnostic);
+  const std::string text = without_controls(with_named_line(diagnostic));
   write_error((colour_ ? painted(text, "error", 31) : text) + "\n");
 }
 

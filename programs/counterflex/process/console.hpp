@@ -34,6 +34,11 @@ class Console {
   Console(const Console&) = delete;
   Console& operator=(const Console&) = delete;
 
+  /// From now on, lines of the program `name` are named in the file in which they are. Its files are joined;
+  /// `first` has the first line of each in the joined text.
+  void name_lines(const std::string& name, const std::vector<std::string>& files,
+                  const std::vector<int>& first);
+
   /// "file:line: warning: what", without the line if it is 0. A warning of the same text is printed once. At
   /// most 20 for each file; `finish_warnings` prints the number of others.
   void warning(const std::string& file, int line, std::string_view what);
@@ -74,7 +79,14 @@ class Console {
 
  private:
   void erase_progress();
+  std::string with_named_line(std::string_view diagnostic) const;
 
+  struct JoinedFiles {
+    std::vector<std::string> files;
+    std::vector<int> first;
+  };
+
+  std::map<std::string, JoinedFiles, std::less<>> joined_;  ///< by the name of the program
   ConsoleListener listener_;
   bool quiet_, verbose_, terminal_, one_terminal_, colour_, colour_out_, marks_out_, marks_error_;
   bool showing_progress_ = false;

@@ -18,4 +18,11 @@ std::string read_input(const std::string& path, ErrorKind unreadable) {
   return or_unreadable(unreadable, [&] { return read_file(path); });
 }
 
+bool is_same_file(const std::string& a, const std::string& b) {
+  if (a == "-" || b == "-") return false;
+  std::error_code error;
+  if (std::filesystem::equivalent(a, b, error)) return true;
+  return std::filesystem::weakly_canonical(a, error) == std::filesystem::weakly_canonical(b, error);
+}
+
 }  // namespace counterflex::cli

@@ -26,4 +26,7 @@ std::string read_input(const std::string& path, ErrorKind unreadable);
 /// Throws `InputError` of the kind `unreadable` where `path` is a folder.
 void refuse_folder(const std::string& path, ErrorKind unreadable);
 
+/// Whether two paths are one file. If one of them does not exist, compares the names.
+bool is_same_file(const std::string& a, const std::string& b);
+
 }  // namespace counterflex::cli

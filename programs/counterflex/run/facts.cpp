@@ -47,6 +47,8 @@ RunFacts facts_of(const Options& options, const Run& run) {
       options.command != Command::compensate || options.json || options.report || options.plot;
   facts.inputs = {run.file.file, run.machine.file};
   const auto& forces = run.force_input.files;
+  const auto& lists = run.file.data_lists;
+  facts.inputs.insert(facts.inputs.end(), lists.begin(), lists.end());
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
   for (InputFile& input : facts.inputs) input.path = without_controls(input.path);

@@ -9,6 +9,8 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/program/program_files.hpp"
+#include "process/read_input.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {
@@ -159,20 +161,30 @@ void blame_dialect(const InputError& error, const Options& options, const Machin
                   machine->control.dialect));
 }
 
-ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
-                                const Machine* machine, const ReadOptions& read) {
-  std::string text = read_input(path, ErrorKind::usage);
-  const InputFile file = input_file(role, path, text);
-  try {
-    return {file, read_program(std::move(text), shown_name(path), read)};
-  } catch (const InputError& error) {
-    blame_dialect(error, options, machine, shown_name(path));
-  }
+std::vector<std::string> files_of_program(const std::string& path,
+                                          const std::vector<std::string>& data_lists) {
+  std::vector<std::string> files{path};
+  if (std::string own = data_list_beside(path); !own.empty()) files.push_back(std::move(own));
+  for (const std::string& list : data_lists)
+    if (std::none_of(files.begin(), files.end(), [&](const std::string& f) { return is_same_file(f, list); }))
+      files.push_back(list);
+  return files;
 }
 
-ProgramFile open_program(const std::string& role, const std::string& path) {
+ProgramFile open_program(const std::string& role, const std::string& path,
+                         const std::vector<std::string>& data_lists, Console& console) {
   refuse_folder(path, ErrorKind::usage);
-  return {{role, path, {}}, FileReader(path)};
+  const std::vector<std::string> files = files_of_program(path, data_lists);
+  ProgramFile program{{role, path, {}}, join_files(files)};
+  if (files.size() == 1) return program;
+  FileReader alone(path);
+  program.file.sha256 = sha256(alone);
+  for (std::size_t i = 1; i < files.size(); ++i) {
+    FileReader list(files[i]);
+    program.data_lists.push_back({"data-list", files[i], sha256(list)});
+  }
+  console.name_lines(shown_name(path), files, first_lines(files));
+  return program;
 }
 
 void warn_of(const Overview& program, Command command, Console& console) {

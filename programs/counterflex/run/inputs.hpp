@@ -48,20 +48,22 @@ bool controls_pose(const Machine& machine);
 /// How programs are read: by `options`, else by `machine`.
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools);
 
-struct ProgramInput {
-  InputFile file;
-  Program program;
-};
-ProgramInput read_program_input(const std::string& role, const std::string& path, const Options& options,
-                                const Machine* machine, const ReadOptions& read);
-
 /// A program that is read in windows, as often as needed; `bytes` is at its beginning. The first complete
 /// pass computes the hash of the file.
 struct ProgramFile {
   InputFile file;
   FileReader bytes;
+  std::vector<InputFile> data_lists{};  ///< behind the program in `bytes`, with their hashes
 };
-ProgramFile open_program(const std::string& role, const std::string& path);
+
+/// The data lists of `path` are the one beside it and `data_lists`. The console then names lines in the file
+/// in which they are.
+ProgramFile open_program(const std::string& role, const std::string& path,
+                         const std::vector<std::string>& data_lists, Console& console);
+
+/// The program, the data list beside it, and those of the options.
+std::vector<std::string> files_of_program(const std::string& path,
+                                          const std::vector<std::string>& data_lists);
 
 /// Rethrows `error` of a program's reader. An unknown dialect that comes from `machine` becomes an error of
 /// the machine file. Called in its handler.

@@ -16,6 +16,7 @@
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
 #include "run/corrected_header.hpp"
+#include "run/inputs.hpp"
 #include "settings/output_names.hpp"
 
 namespace counterflex::cli {
@@ -23,16 +24,9 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Compares files if both exist, else names.
-bool same_file(const std::string& a, const std::string& b) {
-  if (a == "-" || b == "-") return false;
-  std::error_code error;
-  if (fs::equivalent(a, b, error)) return true;
-  return fs::weakly_canonical(a, error) == fs::weakly_canonical(b, error);
-}
-
 std::vector<std::string> inputs_of(const Options& options) {
-  std::vector<std::string> inputs{options.program, options.machine};
+  std::vector<std::string> inputs = files_of_program(options.program, options.data_lists);
+  inputs.push_back(options.machine);
   if (!options.verify.corrected.empty()) inputs.push_back(options.verify.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
@@ -68,11 +62,11 @@ void check_paths(const std::vector<std::string>& outputs, const std::vector<std:
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     check_place(outputs[i], made);
     for (const std::string& input : inputs)
-      if (same_file(outputs[i], input))
+      if (is_same_file(outputs[i], input))
         throw InputError(ErrorKind::usage, {outputs[i]},
                          fmt::format("the output would replace the input {}; give another name", input));
     for (std::size_t k = 0; k < i; ++k)
-      if (same_file(outputs[i], outputs[k]))
+      if (is_same_file(outputs[i], outputs[k]))
         throw InputError(ErrorKind::usage, {outputs[i]},
                          "two outputs have this name; give one of them another name");
   }
@@ -95,6 +89,7 @@ void make_folders(const std::vector<std::string>& folders) {
 void sweep_left(const OutputPaths& paths) {
   std::vector<std::string> files{paths.program, paths.report_json, paths.report_csv, paths.report_page,
                                  paths.plot};
+  for (const OutputPaths::List& list : paths.lists) files.push_back(list.path);
   std::erase_if(files, [](const std::string& path) { return path.empty() || path == "-"; });
   sweep_abandoned(files);
 }
@@ -114,11 +109,39 @@ std::string path_of_plot(const std::string& path) {
 
 }  // namespace
 
+std::string corrected_list(const std::string& list, const std::string& program,
+                           const std::string& corrected) {
+  const fs::path path(list), output(corrected);
+  if (is_same_file(list, data_list_beside(program)))
+    return fs::path(output).replace_extension(path.extension()).string();
+  const fs::path same_name = output.parent_path() / path.filename();
+  return is_same_file(same_name.string(), list) ? default_output(list) : same_name.string();
+}
+
 std::string canonical_name(const std::string& path) {
   std::error_code ignored;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
   return canonical.empty() ? path : canonical.native();
 }
+
+namespace {
+
+std::vector<OutputPaths::List> lists_of(const Options& options, const std::string& corrected) {
+  std::vector<OutputPaths::List> lists;
+  const std::vector<std::string> files = files_of_program(options.program, options.data_lists);
+  if (corrected == "-" && files.size() > 1)
+    throw InputError(
+        ErrorKind::usage, {},
+        fmt::format("the program has the data list {}, and only one file can go to standard output; give -o "
+                    "a file",
+                    shown_name(files[1])));
+  for (std::size_t i = 1; i < files.size(); ++i)
+    lists.push_back({corrected_list(files[i], options.program, corrected), files[i],
+                     is_same_file(files[i], data_list_beside(options.program))});
+  return lists;
+}
+
+}  // namespace
 
 OutputPaths output_paths(const Options& options) {
   OutputPaths paths;
@@ -126,6 +149,8 @@ OutputPaths output_paths(const Options& options) {
   if (options.command == Command::compensate) {
     paths.program = options.output.value_or(default_output(options.program));
     outputs.push_back(paths.program);
+    paths.lists = lists_of(options, paths.program);
+    for (const OutputPaths::List& list : paths.lists) outputs.push_back(list.path);
   }
   if (options.report) {
     paths.report_json = stem_of_report(options) + ".json";
@@ -166,6 +191,8 @@ OwnFile page_file(const std::string& path) {
 
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
   if (options.force_overwrite) return;
+  for (const OutputPaths::List& list : paths.lists)  // it has no header of its own
+    refuse_foreign({{list.path, [&](const std::string&) { return has_corrected_header(paths.program); }}});
   refuse_foreign({{paths.program, has_corrected_header},
                   marked_file(paths.report_json, "\"counterflex"),
                   marked_file(paths.report_csv, "index,line,cutting,s_mm"),
@@ -209,6 +236,11 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
     if (hashed) file->hash_along();
   };
   open(program_, paths.program);
+  for (const OutputPaths::List& list : paths.lists) lists_.emplace_back(list.path).hash_along();
+  if (!lists_.empty())
+    splitter_.emplace([this](std::size_t file, std::string_view bytes) {
+      (file == 0 ? *program_ : lists_.at(file - 1)).write(bytes);
+    });
   open(plot_, paths.plot);
   open(csv_, paths.report_csv);
   open(json_, paths.report_json);
@@ -217,7 +249,10 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
 }
 
 void RunFiles::add_program(std::string_view text) {
-  if (program_) program_->write(text);
+  if (splitter_)
+    splitter_->add(text);
+  else if (program_)
+    program_->write(text);
 }
 
 void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
@@ -243,10 +278,27 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
   write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
 }
 
+std::vector<FileWriter*> RunFiles::written_lists() {
+  std::vector<FileWriter*> lists;
+  for (std::size_t i = 0; i < lists_.size(); ++i) {
+    lists_[i].complete();
+    FileReader input(paths_.lists[i].input);
+    if (paths_.lists[i].always || lists_[i].sha256() != sha256(input)) lists.push_back(&lists_[i]);
+  }
+  return lists;
+}
+
 void RunFiles::publish(bool with_program) {
-  FileWriter* program = with_program ? if_any(program_) : nullptr;
-  publish_together({if_any(json_), if_any(csv_), if_any(page_), if_any(plot_), program});
-  for (const FileWriter* file : {program, if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)})
+  if (splitter_) splitter_->finish();
+  std::vector<FileWriter*> files{if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)};
+  if (with_program) {
+    const std::vector<FileWriter*> lists = written_lists();
+    files.insert(files.begin(), lists.begin(), lists.end());
+    files.push_back(if_any(program_));
+  }
+  publish_together(files);
+  if (with_program) std::rotate(files.begin(), files.end() - 1, files.end());  // the program is listed first
+  for (const FileWriter* file : files)
     if (file != nullptr && !file->is_stream()) published_.push_back({file->path(), file->sha256()});
 }
 

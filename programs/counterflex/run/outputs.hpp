@@ -8,6 +8,7 @@
 
 #include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/file_writer.hpp"
+#include "counterflex/program/program_files.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
 #include "settings/options.hpp"
@@ -17,6 +18,14 @@ namespace counterflex::cli {
 /// The paths of outputs; an empty path is not written.
 struct OutputPaths {
   std::string program;  ///< "-": standard output
+  /// The data lists of the program, in its order. The list beside the program is always written, others if
+  /// they change.
+  struct List {
+    std::string path;
+    std::string input;
+    bool always = false;
+  };
+  std::vector<List> lists{};
   std::string report_json;
   std::string report_csv;
   std::string report_page;
@@ -29,6 +38,10 @@ struct OutputPaths {
 /// is an input (also through links), if two paths are equal, or if the program and --json both use standard
 /// output; ErrorKind::transient_io if a folder does not exist.
 OutputPaths output_paths(const Options& options);
+
+/// The name of the corrected data list: the list's own name in the folder of the corrected program, or
+/// NAME.comp.dat if that is the list itself. The list beside the program gets the stem of the corrected one.
+std::string corrected_list(const std::string& list, const std::string& program, const std::string& corrected);
 
 /// One name for all paths of a file, which may not exist.
 std::string canonical_name(const std::string& path);
@@ -85,9 +98,14 @@ class RunFiles {
   const std::vector<FileHash>& published() const { return published_; }
 
  private:
+  /// The data lists that have changed, and the one beside the program.
+  std::vector<FileWriter*> written_lists();
+
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
+  std::optional<FileSplitter> splitter_;  ///< of a program with data lists
+  std::vector<FileWriter> lists_;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
   std::vector<FileHash> published_;
 };

@@ -45,7 +45,8 @@ ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOp
     file.bytes.refuse_change();  // a file replaced while it was read has errors of its own
     blame_dialect(error, options, machine, name);
   }
-  file.file.sha256 = sha256(file.bytes);
+  if (file.data_lists.empty()) file.file.sha256 = sha256(file.bytes);
+  file.bytes.rewind();
   return scan;
 }
 

@@ -184,6 +184,7 @@ void refuse_stdin_twice(const Options& options) {
   std::vector<std::string> paths{options.program, options.verify.corrected, options.machine,
                                  options.tool_table.value_or("")};
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
+  paths.insert(paths.end(), options.data_lists.begin(), options.data_lists.end());
   paths.insert(paths.end(), options.compare.reports.begin(), options.compare.reports.end());
   const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(ErrorKind::usage, {}, "standard input (-) can be only one of the inputs");
@@ -196,7 +197,8 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   ToolLengths tools = read_tool_lengths(options, &machine.machine);
   take_lengths(tools, machine.machine);
   auto run = std::make_unique<Run>(
-      Run{.machine = std::move(machine), .file = open_program("program", options.program)});
+      Run{.machine = std::move(machine),
+          .file = open_program("program", options.program, options.data_lists, console)});
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);

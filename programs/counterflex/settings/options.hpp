@@ -87,6 +87,7 @@ struct Options {
   std::optional<bool> absolute_centres;  ///< of arcs; unset: as in the machine file, or incremental
   bool evaluate = false;
   bool expand_subprograms = false;
+  std::vector<std::string> data_lists;     ///< of a KUKA program: files
   std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
   std::optional<std::string> tool_table;   ///< a file
   std::map<long, double> tool_lengths_mm;  ///< of --tool-length

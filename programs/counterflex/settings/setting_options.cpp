@@ -128,6 +128,11 @@ const std::array option_table{
         "false", false,
         [](Text name, Text text, Options& options) { options.expand_subprograms = truth_of(name, text); }},
     SettingOption{
+        "data", "--data", "FILE.dat", group::reading,
+        "A data list with targets of a KUKA program; NAME.dat beside NAME.src is read without this. "
+        "May be repeated",
+        "", true, [](Text, Text text, Options& options) { options.data_lists.push_back(text); }},
+    SettingOption{
         "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", group::common,
         "A work offset in the machine frame, mm and degrees. DATUM is how it was found: machine or "
         "touched=X,Y,Z. May be repeated. --work machine: program coordinates are machine coordinates",
@@ -208,7 +213,7 @@ bool is_among(std::string_view option, std::initializer_list<std::string_view> l
 
 bool is_of_reading(std::string_view option) {
   return is_among(option, {"machine", "dialect", "units", "integer-words", "arc-centres", "evaluate",
-                           "expand-subprograms", "work", "tool-table", "tool-length"});
+                           "expand-subprograms", "data", "work", "tool-table", "tool-length"});
 }
 
 }  // namespace

@@ -5,6 +5,7 @@
 #include <utility>
 
 #include "counterflex/program/program.hpp"
+#include "counterflex/program/read_program.hpp"
 
 namespace counterflex {
 namespace {
@@ -39,6 +40,39 @@ std::string statement_of(const Program& program, std::string_view line, bool& se
   return statement;
 }
 
+// The line from byte `begin` on without `spans`, of which `next` is the first that may be in the line.
+std::string without(const std::vector<Span>& spans, const std::string& text, std::string_view line,
+                    std::size_t begin, std::size_t& next) {
+  std::string rest;
+  std::size_t at = begin;
+  const std::size_t end = begin + line.size();
+  for (; next < spans.size() && spans[next].begin < end; ++next) {
+    if (spans[next].begin < at) continue;
+    rest.append(text, at, spans[next].begin - at);
+    at = spans[next].end;
+  }
+  return rest.append(text, at, end - at);
+}
+
+// The numbers of targets that are in other lines than their moves, in the order of the text.
+std::vector<Span> declared_numbers(const Program& window) {
+  std::vector<Span> numbers;
+  if (!is_robot_dialect(window.dialect)) return numbers;
+  for (const Move& move : window.moves) {
+    const auto add = [&](const PackedAxisWord& word) {
+      if (word && (word->number.begin < move.block.begin || word->number.end > move.block.end))
+        numbers.push_back(word->number);
+    };
+    for (const auto& word : move.words) add(word);
+    if (move.orientation)
+      for (const auto& word : move.orientation->words) add(word);
+    if (move.arc)
+      for (const auto& word : move.arc->centre_words) add(word);
+  }
+  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  return numbers;
+}
+
 // A comment of the header and nothing else.
 bool is_header(std::string_view line) {
   for (const std::string_view mark : {";", "!", "#", "$$"})  // of robot languages, too
@@ -63,6 +97,10 @@ bool keeps_parameters(std::string_view statement) {
 
 }  // namespace
 
+bool are_equal(const OtherLine& a, const OtherLine& b) {
+  return a.text == b.text || (!a.without_targets.empty() && a.without_targets == b.without_targets);
+}
+
 void OtherLines::end_statement() {
   std::vector<std::string> texts;
   for (const OtherLine& line : statement_) texts.push_back(line.text);
@@ -82,11 +120,13 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
   std::vector<std::size_t> counts;
   counts.reserve(window.moves.size());
   const std::string_view text = window.text;
+  const std::vector<Span> declared = declared_numbers(window);
+  std::size_t next_count = 0, next_number = 0;
   const bool klartext = window.dialect == "heidenhain", siemens = window.dialect == "siemens";
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
-    begin = end + 1;
+    const std::size_t line_begin = std::exchange(begin, end + 1);
     bool moves = false;
     for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end;
          moves = true)
@@ -97,10 +137,13 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (siemens && calls_modal_cycle(line)) continue;
-    std::string statement = statement_of(window, line, sets_surface_);
+    std::string statement = statement_of(
+        window, without(window.counts, window.text, line, line_begin, next_count), sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
+    std::string rest = without(declared, window.text, line, line_begin, next_number);
+    if (rest.size() < line.size()) statement_.back().without_targets = std::move(rest);
     if (ends) end_statement();
   }
   end_statement();

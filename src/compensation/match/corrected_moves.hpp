@@ -12,7 +12,12 @@ namespace counterflex {
 struct OtherLine {
   int line = 0;  ///< of the file
   std::string text;
+  /// Without the numbers of targets that it gives moves in other lines: those are judged by their moves.
+  /// Empty if it gives none.
+  std::string without_targets{};
 };
+
+bool are_equal(const OtherLine& a, const OtherLine& b);
 
 /// The lines without a move of a program that is read in windows, the header and modal drilling cycles of a
 /// Sinumerik aside. Of statements that set the surface of Klartext's drilling cycles, and differ in that

@@ -101,7 +101,7 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
 // Compares as many lines without a move as both programs have given.
 std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   for (; !wanted.lines.empty() && !found.lines.empty(); wanted.lines.pop_front(), found.lines.pop_front())
-    if (wanted.lines.front().text != found.lines.front().text)
+    if (!are_equal(wanted.lines.front(), found.lines.front()))
       return Failure{ErrorKind::not_compensated, wanted.lines.front().line,
                      "this line differs from that of the original; it is not a move and must not change",
                      found.lines.front().line};

@@ -141,11 +141,34 @@ std::string without_klartext_motion(std::string text) {
 
 namespace {
 
-// The statement of a robot's move up to its target: letters, and the bracket behind them.
-std::string head_of(std::string_view statement) {
-  std::size_t end = 0;
-  while (end < statement.size() && std::isalpha(static_cast<unsigned char>(statement[end])) != 0) ++end;
-  return std::string(statement.substr(0, end));
+bool is_name_character(char c) {
+  return std::isalnum(static_cast<unsigned char>(c)) != 0 || c == '_' || c == '$' || c == '.';
+}
+
+// The end of a bracket at `at`, else `at`.
+std::size_t behind_bracket(std::string_view text, std::size_t at) {
+  int depth = 0;
+  for (std::size_t i = at; i < text.size(); ++i) {
+    if (text[i] == '[' || text[i] == '{') ++depth;
+    if (text[i] == ']' || text[i] == '}') --depth;
+    if (depth == 0) return i > at ? i + 1 : at;
+  }
+  return at;
+}
+
+// The end of a target at `at`: "{X 1}", "[[1,2,3],...]", "P1", "P[3].AT".
+std::size_t behind_target(std::string_view text, std::size_t at) {
+  for (std::size_t begin = at;; begin = at) {
+    while (at < text.size() && is_name_character(text[at])) ++at;
+    at = behind_bracket(text, at);
+    if (at == begin) return at;
+  }
+}
+
+std::string without_blanks(std::string_view text) {
+  std::string rest(text);
+  std::erase_if(rest, [](char c) { return c == ' ' || c == '\t'; });
+  return rest;
 }
 
 // The words of a zone: ",z10", ",[FALSE,0.5,...]" of ABB, ",r=0.001" of Universal Robots.
@@ -167,6 +190,43 @@ std::string without_zone(std::string text) {
   return text;
 }
 
+// "POINTS[12]={...}" without its index: the element of an array in a data list of KUKA. Points that are
+// inserted before it change it.
+std::string without_index(std::string text) {
+  const std::size_t open = text.find('['), close = text.find(']'), equals = text.find('=');
+  if (open < close && close < equals && equals != std::string::npos) text.erase(open, close + 1 - open);
+  return text;
+}
+
+// The statement with '@' for its target, or for the two of an arc.
+std::string without_targets(std::string_view statement, bool has_arc) {
+  const auto behind_blanks = [&](std::size_t at) {
+    return std::min(statement.find_first_not_of(" \t", at), statement.size());
+  };
+  std::size_t head = 0;
+  while (head < statement.size() && std::isalpha(static_cast<unsigned char>(statement[head])) != 0) ++head;
+  if (head < statement.size() && statement[head] == '(') ++head;  // movel(start, a=1.2)
+  std::size_t end = behind_target(statement, behind_blanks(head));
+  if (const std::size_t comma = behind_blanks(end);
+      has_arc && comma < statement.size() && statement[comma] == ',')
+    end = behind_target(statement, behind_blanks(comma + 1));
+  return std::string(statement.substr(0, head)) + '@' + without_zone(without_blanks(statement.substr(end)));
+}
+
+// Where the comment of the move's line begins, with the blanks before it: copies of the statement have none.
+std::size_t statement_end(const Program& program, const Move& move) {
+  std::string_view mark = ";";
+  if (program.dialect == "abb") mark = "!";
+  if (program.dialect == "ur") mark = "#";
+  if (program.dialect == "apt") mark = "$$";
+  bool quoted = false;
+  for (std::size_t at = move.block.begin; at < move.block.end; ++at) {
+    if (program.text[at] == '"') quoted = !quoted;
+    if (!quoted && program.text.compare(at, mark.size(), mark) == 0) return at;
+  }
+  return move.block.end;
+}
+
 std::string robot_skeleton(const Program& program, const Move& move) {
   std::vector<Span> numbers;
   bool is_named = false;
@@ -180,25 +240,38 @@ std::string robot_skeleton(const Program& program, const Move& move) {
     for (const auto& word : move.orientation->words) add(word);
   if (move.arc)
     for (const auto& word : move.arc->centre_words) add(word);
+  const std::size_t end = statement_end(program, move);
+  const std::string_view statement =
+      std::string_view(program.text).substr(move.block.begin, end - move.block.begin);
+  if (is_named)
+    return without_targets(statement.substr(std::min(statement.find_first_not_of(" \t"), statement.size())),
+                           move.arc.has_value());
   std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
   std::string text;
   std::size_t at = move.block.begin;
-  const auto keep = [&](std::size_t end) {
-    for (; at < end; ++at)
-      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
-  };
-  for (const Span& number : numbers)
-    if (!is_named && number.begin >= at) keep(number.begin), at = number.end;
-  keep(move.block.end);
-  return is_named ? head_of(text) + '@' : without_zone(std::move(text));
+  for (const Span& number : numbers) {
+    if (number.begin < at) continue;
+    text.append(program.text, at, number.begin - at);
+    at = number.end;
+  }
+  if (end > at) text.append(program.text, at, end - at);
+  return without_index(without_zone(without_blanks(text)));
 }
 
 }  // namespace
 
 bool are_alike(const std::string& a, const std::string& b) {
-  if (a.ends_with('@')) return b.starts_with(std::string_view(a).substr(0, a.size() - 1));
-  if (b.ends_with('@')) return a.starts_with(std::string_view(b).substr(0, b.size() - 1));
-  return a == b;
+  const std::size_t named = a.find('@');
+  if (named == std::string::npos && b.find('@') != std::string::npos) return are_alike(b, a);
+  if (named == std::string::npos || a == b) return a == b;
+  // The other has its numbers in the statement: between the same words is at least one bracket.
+  const std::string_view head = std::string_view(a).substr(0, named),
+                         tail = std::string_view(a).substr(named + 1);
+  if (b.size() < a.size() || !b.starts_with(head) || !b.ends_with(tail)) return false;
+  std::string_view target = std::string_view(b).substr(named, b.size() - head.size() - tail.size());
+  if (target.starts_with('p')) target.remove_prefix(1);  // p[0.1, 0.2, ...]
+  return (target.starts_with('{') && target.ends_with('}')) ||
+         (target.starts_with('[') && target.ends_with(']'));
 }
 
 std::string skeleton(const Program& program, const Move& move) {

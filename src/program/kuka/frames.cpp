@@ -37,9 +37,8 @@ std::optional<Pose> pose_of(const KrlAggregate& aggregate) {
 
 /// The pose that the text gives the variable `name`.
 std::optional<Pose> named_pose(const KrlReading& r, std::string_view name) {
-  const auto found = r.named.find(name);
-  if (found == r.named.end() || found->second.computed_in) return std::nullopt;
-  return pose_of(found->second.value);
+  const auto aggregate = named_aggregate(r, name);
+  return aggregate ? pose_of(*aggregate) : std::nullopt;
 }
 
 ProgramFrame base_of(const KrlReading& r, Span value) {

@@ -54,9 +54,9 @@ bool has_word(const MotionStatement& statement, std::string_view word) {
   return std::find(statement.words.begin(), statement.words.end(), word) != statement.words.end();
 }
 
-/// C_DIS, C_VEL and C_ORI round the end of a path, C_PTP that of a joint move.
 bool passes(const MotionStatement& statement) {
-  return has_word(statement, "C_DIS") || has_word(statement, "C_VEL") || has_word(statement, "C_ORI");
+  return std::any_of(statement.words.begin(), statement.words.end(),
+                     [](const std::string& word) { return passes_target(word); });
 }
 
 /// Whether a component is A1 to A6.
@@ -80,44 +80,50 @@ std::array<std::optional<double>, 6> external_of(const KrlAggregate& aggregate) 
   return external;
 }
 
+/// Whether an index of "P[n]" is not a plain number.
+bool has_variable_index(std::string_view variable) {
+  const std::size_t open = variable.find('['), close = variable.find(']');
+  return open != std::string_view::npos && !whole_number(variable, {open + 1, std::max(close, open + 1)});
+}
+
 /// The aggregate of an operand, its own or that of its name. Refuses the name of a target that is not in the
 /// text.
-const KrlAggregate* aggregate_of(const KrlReading& r, const RobotLine& line, std::string_view head,
-                                 const Operand& operand) {
-  if (operand.expression) return nullptr;
-  if (operand.aggregate) return &*operand.aggregate;
+std::optional<KrlAggregate> aggregate_of(const KrlReading& r, const RobotLine& line, std::string_view head,
+                                         const Operand& operand) {
+  if (operand.expression) return std::nullopt;
+  if (operand.aggregate) return operand.aggregate;
   const RobotReading& robot = r.robot;
   const std::string_view name = part(robot.program.text, operand.span);
+  if (auto aggregate = named_aggregate(r, krl_word(name))) return aggregate;
   const auto found = r.named.find(krl_word(name));
-  if (found != r.named.end() && !found->second.computed_in) return &found->second.value;
-  if (found != r.named.end())
+  if (in_body(r) && has_variable_index(name)) return std::nullopt;
+  if (found != r.named.end() && found->second.computed_in)
     throw InputError(
         ErrorKind::program_text, {robot.program.file, *found->second.computed_in, 1},
         fmt::format("the target '{}' of {} in line {} is computed at run time; write its numbers "
                     "into the statement: {} {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
                     name, head, line.line, head));
   refuse(robot.program.file, line, operand.span.begin,
-         fmt::format("the target '{}' is not in this file, and targets of a .dat file are not supported; "
-                     "write its numbers into the statement: {} {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
+         fmt::format("the target '{}' of {} is neither in this file nor in a data list; give the list that "
+                     "has it with --data FILE.dat",
                      name, head));
 }
 
 constexpr std::string_view run_time = "the target is computed at run time";
 constexpr std::string_view in_a_body = "a loop or a condition may run the statement never or several times";
 
-/// The aggregate of PTP; null if it is computed or not in the text, as the home position.
-const KrlAggregate* aggregate_of_ptp(const KrlReading& r, const Operand& operand) {
-  if (operand.expression) return nullptr;
-  if (operand.aggregate) return &*operand.aggregate;
-  const auto named = r.named.find(krl_word(part(r.robot.program.text, operand.span)));
-  return named != r.named.end() && !named->second.computed_in ? &named->second.value : nullptr;
+/// The aggregate of PTP; empty if it is computed or not in the text, as the home position.
+std::optional<KrlAggregate> aggregate_of_ptp(const KrlReading& r, const Operand& operand) {
+  if (operand.expression) return std::nullopt;
+  if (operand.aggregate) return operand.aggregate;
+  return named_aggregate(r, krl_word(part(r.robot.program.text, operand.span)));
 }
 
 /// PTP to a Cartesian target is a rapid. Its path between the targets is not known.
 void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const MotionStatement& statement) {
-  const KrlAggregate* aggregate = aggregate_of_ptp(r, statement.operands.front());
+  const auto aggregate = aggregate_of_ptp(r, statement.operands.front());
   std::string why;
-  if (aggregate == nullptr)
+  if (!aggregate)
     why = "the target of PTP is computed at run time or is not in this file";
   else if (head == "PTP_REL")
     why = "PTP_REL is not followed";
@@ -126,7 +132,11 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
   const auto target = aggregate ? krl_target(*aggregate) : std::nullopt;
   if (why.empty() && !target) why = run_time;
   if (in_body(r)) why = in_a_body;
-  if (why.empty()) return add_target_move(r.robot, line, *target, {.motion = Motion::rapid});
+  const bool states_turns = aggregate && find_component(*aggregate, "T") != nullptr;
+  if (why.empty())
+    return add_target_move(
+        r.robot, line, *target,
+        {.motion = Motion::rapid, .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none});
   add_joint_move(r.robot, line, std::move(why));
   if (aggregate && head == "PTP" && !in_body(r)) r.robot.state.external = external_of(*aggregate);
 }
@@ -148,7 +158,7 @@ bool turns(RobotTarget& target) {
 void read_line(KrlReading& r, const RobotLine& line, std::string_view head,
                const MotionStatement& statement) {
   const bool relative = head == "LIN_REL";
-  const KrlAggregate* aggregate = aggregate_of(r, line, head, statement.operands.front());
+  const auto aggregate = aggregate_of(r, line, head, statement.operands.front());
   std::optional<RobotTarget> target = aggregate ? krl_target(*aggregate) : std::nullopt;
   std::string why = r.why_not_followed;
   if (!target) why = run_time;
@@ -187,7 +197,7 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
            "CIRC has no end point: write CIRC {X 1, ...}, {X 2, ...}");
   std::array<std::optional<RobotTarget>, 2> targets;  // auxiliary point, end
   for (std::size_t i = 0; i < 2; ++i)
-    if (const KrlAggregate* aggregate = aggregate_of(r, line, "CIRC", statement.operands[i]))
+    if (const auto aggregate = aggregate_of(r, line, "CIRC", statement.operands[i]))
       targets[i] = krl_target(*aggregate);
   const auto angle = circle_angle(text, statement);
   std::string why = r.why_not_followed;
@@ -211,6 +221,11 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
 }
 
 }  // namespace
+
+bool passes_target(std::string_view words) {
+  const std::string upper_case = krl_word(words);
+  return upper_case.ends_with("C_DIS") || upper_case.ends_with("C_VEL") || upper_case.ends_with("C_ORI");
+}
 
 std::optional<RobotTarget> krl_target(const KrlAggregate& aggregate) {
   constexpr std::string_view axes = "XYZ", angles = "CBA";  // about X, Y, Z

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "program/kuka/names.hpp"
+#include "program/program_files.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -53,11 +54,11 @@ void assign_variable(KrlReading& r, const RobotLine& line, const std::string& va
     r.named.insert_or_assign(std::string(target), KrlNamed{{}, line.line});
     return;
   }
-  auto aggregate = aggregate_at(r.robot.program.text, value.begin, value.end);
+  const auto aggregate = aggregate_at(r.robot.program.text, value.begin, value.end);
   const bool is_target = aggregate && aggregate->span.end == value.end && krl_target(*aggregate);
   const bool known = r.named.contains(variable);
   if (is_target && !in_body(r))
-    r.named.insert_or_assign(variable, KrlNamed{std::move(*aggregate), {}});
+    r.named.insert_or_assign(variable, KrlNamed{aggregate->span, {}});
   else if (is_target || known)
     r.named.insert_or_assign(variable, KrlNamed{{}, line.line});
 }
@@ -80,7 +81,7 @@ void assign_orientation_type(KrlReading& r, std::string_view type) {
       type == "#VAR" && !in_body(r) ? "" : fmt::format("the control turns the tool by $ORI_TYPE={}", type);
 }
 
-void assign(KrlReading& r, const RobotLine& line, const KrlAssignment& assignment) {
+void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& assignment) {
   const std::string_view text = r.robot.program.text;
   const std::string variable = krl_word(part(text, assignment.variable));
   const std::string value = krl_word(part(text, assignment.value));
@@ -108,14 +109,22 @@ void assign(KrlReading& r, const RobotLine& line, const KrlAssignment& assignmen
   assign_variable(r, line, variable, assignment.value);
 }
 
+/// The end of the first routine of the file. Its data lists may follow.
+void end_routine(KrlReading& r) {
+  r.routine_ended = true;
+  r.robot.ended = !r.data_lists;
+}
+
 void begin_or_end(KrlReading& r) {
-  r.robot.ended = r.begun;  // the next routine of the file
+  if (r.begun) return end_routine(r);
   r.begun = true;
+  if (r.data_lists) read_names_of_lists(r);
 }
 
 /// A call may run any statement.
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   if (is_one_of(krl_word(name), motionless_calls)) return;
+  if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
   forget_position(r.robot);
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
@@ -125,7 +134,7 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
 void read_other(KrlReading& r, const RobotLine& line, Span head) {
   const std::string_view text = r.robot.program.text;
   if (const auto assignment = assignment_at(text, line.code.begin, line.code.end))
-    return assign(r, line, *assignment);
+    return read_assignment(r, line, *assignment);
   const std::size_t next = behind_blanks(text, head.end, line.code.end);
   const char c = next < line.code.end ? text[next] : '\0';
   if (head.begin == head.end)
@@ -145,7 +154,14 @@ void set_krl_speed(KrlReading& r, double metres_per_second) {
 void read_krl_statement(KrlReading& r, const RobotLine& line) {
   const std::string_view text = r.robot.program.text;
   const std::string& file = r.robot.program.file;
-  if (text[line.code.begin] == '&') return;  // attributes of the file
+  if (text[line.code.begin] == '&') {  // attributes of the file
+    if (!part(text, line.code).starts_with(file_mark)) return;
+    r.in_data_list = true;
+    r.robot.program.counts.push_back({line.code.begin + file_mark.size(), line.code.end});
+    return;
+  }
+  if (r.in_data_list) return read_data_line(r, line);
+  if (r.routine_ended || line.code.begin < r.behind_loop) return;
   const Span name = name_at(text, line.code.begin, line.code.end);
   const std::string head = krl_word(part(text, name));
   if (is_one_of(head, motions)) return read_krl_motion(r, line, head, name.end);
@@ -160,17 +176,15 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
     refuse(file, line, name.begin,
            "GOTO is not supported; write the statements in the order in which they run");
   if (begins_routine(text, line)) return begin_or_end(r);
-  if (head == "END" || head == "ENDFCT") {
-    r.robot.ended = true;
-    return;
-  }
+  if (head == "END" || head == "ENDFCT" || head == "ENDDEF") return end_routine(r);
+  if (head == "FOR" && begin_data_loop(r, line)) return;
   if (head == "BAS") return read_krl_bas(r, line, name.end);
   if (is_one_of(head, body_begins)) ++r.robot.open_bodies;
   if (is_one_of(head, body_ends)) r.robot.open_bodies = std::max(r.robot.open_bodies - 1, 0);
   if (is_one_of(head, body_begins) || is_one_of(head, body_ends)) return;
   if (begins_declaration(head)) {
     const auto assignment = assignment_in(text, line.code);
-    return assignment ? assign(r, line, *assignment) : void();
+    return assignment ? read_assignment(r, line, *assignment) : void();
   }
   if (is_one_of(head, motionless)) return;
   read_other(r, line, name);

@@ -2,16 +2,26 @@
 /// Reads the statements of KUKA KRL.
 #include <map>
 #include <string>
+#include <vector>
 
 #include "program/kuka/lex.hpp"
+#include "program/kuka/loops.hpp"
 #include "program/robot/reading.hpp"
 
 namespace counterflex {
 
 /// A target or frame that the text gives a name.
 struct KrlNamed {
-  KrlAggregate value;
+  Span value{};                      ///< its aggregate
   std::optional<int> computed_in{};  ///< line that computes it at run time
+};
+
+/// A loop whose targets are in a data list, and the state in which it begins.
+struct KrlDataLoop {
+  KrlLoop loop;
+  RobotState state;
+  std::size_t moves_before = 0;  ///< of the program
+  bool passes = false;
 };
 
 struct KrlReading {
@@ -21,14 +31,38 @@ struct KrlReading {
   std::string tool{};                                    ///< right side of the last $TOOL
   std::string frame_data{};                              ///< right side of the last FDAT_ACT
   bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
-  std::string why_not_followed{};  ///< why linear moves are not followed; empty if they are
+  std::string why_not_followed{};    ///< why linear moves are not followed; empty if they are
+  const bool data_lists = false;     ///< they follow the program
+  const KrlArrays& arrays;           ///< of the data lists
+  std::vector<KrlDataLoop> loops{};  ///< in the order in which they run
+  std::size_t active_loop = 0;       ///< whose elements are read
+  std::size_t behind_loop = 0;       ///< the statements before this byte are those of a loop
+  bool routine_ended = false;
+  bool in_data_list = false;
 };
 
 /// Reads the statement of `line`. Throws `InputError` with line and column.
 void read_krl_statement(KrlReading& reading, const RobotLine& line);
 
+/// Whether a motion statement with these words does not stop at its end: C_DIS, C_VEL, C_ORI.
+bool passes_target(std::string_view words);
+
 /// LIN, PTP, CIRC and their relative forms. `head`: the keyword in upper case. `at`: the byte behind it.
 void read_krl_motion(KrlReading& reading, const RobotLine& line, std::string_view head, std::size_t at);
+
+/// The aggregate of a target or a frame that the text names, also "P[3]" and "S[3].TARGET". Empty if it is
+/// not in the text, or computed at run time.
+std::optional<KrlAggregate> named_aggregate(const KrlReading& reading, std::string_view name);
+
+/// Reads the names that the data lists give, before the statements that use them.
+void read_names_of_lists(KrlReading& reading);
+
+/// Reads FOR as a loop over the targets of a data list; false for another loop. Throws `InputError` if the
+/// elements of the array are not in a data list, in their order.
+bool begin_data_loop(KrlReading& reading, const RobotLine& line);
+
+/// Reads a line of a data list: an element of the array of a loop is a move.
+void read_data_line(KrlReading& reading, const RobotLine& line);
 
 /// $BASE = ..., $TOOL = ...
 void assign_krl_base(KrlReading& reading, const RobotLine& line, Span value);

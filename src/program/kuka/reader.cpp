@@ -12,7 +12,7 @@ namespace counterflex {
 KukaReader::KukaReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
                        Outline outline)
     : RobotReader(file, options, dialect, std::move(outline), krl_comment, OrientationForm::fixed_axes),
-      krl_{reading()} {}
+      krl_{.robot = reading(), .data_lists = this->outline().data_lists, .arrays = this->outline().arrays} {}
 
 /// Folds and the parameters of inline forms are not names of operations.
 void KukaReader::read_comment(const RobotLine& line) {

@@ -4,6 +4,7 @@
 
 #include "program/dialect.hpp"
 #include "program/kuka/lex.hpp"
+#include "program/kuka/loops.hpp"
 #include "program/kuka/names.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
@@ -88,8 +89,8 @@ Span name_of_target(const Program& program, const Move& move) {
   return variable_at(program.text, behind_blanks(program.text, keyword.end, code.end), code.end);
 }
 
-/// The aggregate in another line that has the numbers of the target of `move`.
-std::optional<KrlAggregate> declared_target(const Program& program, const Move& move) {
+/// The aggregate that has the numbers of the target of `move`, in its line or in another one.
+std::optional<KrlAggregate> target_of(const Program& program, const Move& move) {
   std::optional<std::size_t> number;
   for (const PackedAxisWord& word : move.words)
     if (word) number = word->number.begin;
@@ -104,6 +105,14 @@ std::optional<KrlAggregate> declared_target(const Program& program, const Move& 
 KukaWriter::KukaWriter(const Program& window, const WriteOptions& options)
     : RobotWriter(window, options, krl_comment) {
   if (names_targets(window.text)) uses_ = uses_of_names(window.text);
+}
+
+/// Targets that were inserted into the array of a loop have the index of the target behind them. They are
+/// counted here.
+Rewritten KukaWriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
+  Rewritten out = RobotWriter::write(window, edits);
+  if (out.inserted_blocks > 0) out.text = with_counted_arrays(std::move(out.text), window.file);
+  return out;
 }
 
 bool KukaWriter::has_declaration_of_its_own(const Program& program, const Move& move) const {
@@ -125,15 +134,16 @@ std::size_t KukaWriter::header_position(const Program& program) const {
 /// with the new numbers takes the place of its name.
 void KukaWriter::change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                                std::vector<TextChange>& changes) const {
-  const std::vector<KrlAggregate> in_line = aggregates_of(program, move);
-  const auto target = in_line.empty() ? declared_target(program, move) : in_line.back();
+  const std::vector<KrlAggregate> own_line = aggregates_of(program, move);
+  const bool in_line = !own_line.empty();
+  std::optional<KrlAggregate> target = target_of(program, move);
+  if (!target && in_line) target = own_line.back();
   if (!target) return;
   std::vector<TextChange> own;
   RobotWriter::change_target(program, move, numbers, own);
   insert_missing(program.text, *target, missing_components(move, numbers), own);
   if (numbers.becomes_line) change_to_line(program, move, own);
-  const bool at_its_place =
-      !in_line.empty() || (!numbers.is_copy && has_declaration_of_its_own(program, move));
+  const bool at_its_place = in_line || (!numbers.is_copy && has_declaration_of_its_own(program, move));
   if (at_its_place)
     changes.insert(changes.end(), own.begin(), own.end());
   else if (numbers.is_copy || !own.empty())

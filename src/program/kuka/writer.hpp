@@ -11,6 +11,8 @@ class KukaWriter final : public RobotWriter {
  public:
   KukaWriter(const Program& window, const WriteOptions& options);
 
+  Rewritten write(const Program& window, const std::vector<MoveEdit>& edits) override;
+
  private:
   /// Whether only one move uses the named target of `move`, so that its numbers are changed where it is
   /// declared.

@@ -109,6 +109,7 @@ void end_at_target(RobotReading& r, const RobotTarget& target, const TargetMove&
   if (!orientation_is_known(r)) forget_position(r);  // until one target has all of its numbers
   move.end_mm = r.state.position_mm;
   move.known_end = known_axes(r);
+  if (move.orientation) move.orientation->stated_turns = how.stated_turns;
   allow_changes(how, place_external(target, r, move.line), move);
   if (all_known(move.known_end)) return r.last_reason.clear();
   note_uncorrected(

@@ -45,7 +45,8 @@ struct RobotReading {
 struct TargetMove {
   Motion motion = Motion::feed;  ///< a joint move to a Cartesian target is a rapid
   bool relative = false;         ///< the numbers of the position are differences from the last target
-  bool passes = false;           ///< the robot does not stop at the target: C_DIS, a zone, CNT
+  StatedTurns stated_turns = StatedTurns::none;
+  bool passes = false;  ///< the robot does not stop at the target: C_DIS, a zone, CNT
 };
 
 /// Begins a move in the state before the statement of `line`.

@@ -1,0 +1,48 @@
+#pragma once
+/// Programs that consist of several files: a program of a KUKA robot and its data lists.
+#include <cstddef>
+#include <functional>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/input_error.hpp"
+
+namespace counterflex {
+
+/// The data list NAME.dat beside the program NAME.src, with any case of the extensions. Empty if there is
+/// none.
+std::string data_list_beside(const std::string& program);
+
+/// The bytes of all files as one text, which `read_program` reads. Before each file but the first is a line
+/// "&FILE NAME". Throws `InputError` as FileReader does, and ErrorKind::usage if a file has such a line.
+FileReader join_files(const std::vector<std::string>& paths);
+
+/// Where the lines of joined files are: the first line of each file in the joined text.
+std::vector<int> first_lines(const std::vector<std::string>& paths);
+
+/// The place of `line` of a joined text in its file.
+Location place_in_files(const std::vector<std::string>& paths, const std::vector<int>& first, int line);
+
+/// Divides a joined text, which may be a corrected one, into its files again.
+class FileSplitter {
+ public:
+  /// `write` receives bytes of a file, by its index.
+  explicit FileSplitter(std::function<void(std::size_t file, std::string_view bytes)> write);
+
+  /// Adds whole lines of the text.
+  void add(std::string_view lines);
+
+  /// Call it once, after the last line.
+  void finish();
+
+ private:
+  void write(std::string_view bytes);
+
+  std::function<void(std::size_t, std::string_view)> write_;
+  std::size_t file_ = 0;
+  bool holds_newline_ = false;  ///< it may belong to the line of the next file
+};
+
+}  // namespace counterflex

@@ -1,0 +1,244 @@
+// Programs of KUKA robots whose targets are in data lists.
+#include <doctest/doctest.h>
+
+#include <cstdio>
+#include <cstdlib>
+#include <filesystem>
+#include <string>
+#include <vector>
+
+#include "counterflex/program/program_files.hpp"
+#include "counterflex/program/program_reader.hpp"
+#include "program/reading.hpp"
+#include "program/robot/edits.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string loop_program =
+    "DEF job()\n"
+    "INT n\n"
+    "$VEL.CP=0.1\n"
+    "FOR n = 1 TO 3\n"
+    "  speed(POINTS[n].f)\n"
+    "  LIN POINTS[n].at C_DIS\n"
+    "ENDFOR\n"
+    "END\n"
+    "\n"
+    "DEF speed(f:IN)\n"
+    "REAL f\n"
+    "$VEL.CP=f\n"
+    "END\n";
+
+const std::string loop_list =
+    "DEFDAT job PUBLIC\n"
+    "STRUC target FRAME at, REAL f\n"
+    "DECL target POINTS[3]\n"
+    "POINTS[1]={at {X 0,Y 0,Z 5,A 0,B 0,C 180},f 0.1}\n"
+    "POINTS[2]={at {X 10,Y 0,Z 5,A 0,B 0,C 180},f 0.1}\n"
+    "POINTS[ 3 ]={at {X 10,Y 20,Z 5,A 0,B 0,C 180},f 0.2}\n"
+    "ENDDAT";
+
+std::string joined(const std::string& program, const std::string& list) {
+  return program + "\n&FILE job.dat\n" + list;
+}
+
+Program read_joined(const std::string& program, const std::string& list) {
+  return read_program(joined(program, list), "job.src", {});
+}
+
+std::string refusal_of(const std::string& program, const std::string& list) {
+  return diagnostic_of([&] { read_joined(program, list); });
+}
+
+std::string replaced(std::string text, const std::string& old, const std::string& by) {
+  const std::size_t at = text.find(old);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, old.size(), by);
+}
+
+}  // namespace
+
+TEST_CASE("a loop over an array moves to the targets of the data list") {
+  const Program program = read_joined(loop_program, loop_list);
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.left_alone.empty());
+  CHECK(!program.moves[0].known_start[0]);
+  CHECK(program.moves[1].start_mm == Vector3(0, 0, 5));
+  CHECK(program.moves[2].end_mm == Vector3(10, 20, 5));
+  CHECK(program.moves[2].orientation->end[0] == 180);
+  CHECK(program.moves[2].feed_mm_min == 0);  // the loop sets the speed of each target
+  CHECK(!program.moves[2].exact_stop);
+  CHECK(program.moves[2].may_split);
+}
+
+TEST_CASE("targets are changed in the data list, and a program without changes keeps all bytes") {
+  const Program program = read_joined(loop_program, loop_list);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
+  auto edits = robot_edits(program);
+  edits[1].end_mm.x() += 0.25;
+  CHECK(rewrite(program, edits, {}).text ==
+        joined(loop_program, replaced(loop_list, "X 10,Y 0", "X 10.25,Y 0")));
+}
+
+TEST_CASE("inserted targets change the indices behind them, the size of the array and the end of the loop") {
+  const Program program = read_joined(loop_program, loop_list);
+  auto edits = robot_edits(program);
+  edits[1].inserted.push_back({Vector3(5, 0, 5.1), {}, edits[1].orientation});
+  std::string list = replaced(loop_list, "POINTS[2]={at {X 10",
+                              "POINTS[2]={at {X 5,Y 0,Z 5.1,A 0,B 0,C 180},f 0.1}\nPOINTS[3]={at {X 10");
+  list = replaced(list, "POINTS[ 3 ]", "POINTS[ 4 ]");
+  list = replaced(list, "DECL target POINTS[3]", "DECL target POINTS[4]");
+  const std::string text = rewrite(program, edits, {}).text;
+  CHECK(text == joined(replaced(loop_program, "1 TO 3", "1 TO 4"), list));
+  const Program again = read_program(text, "job.src", {});
+  REQUIRE(again.moves.size() == 4);
+  CHECK(again.moves[1].end_mm == Vector3(5, 0, 5.1));
+}
+
+TEST_CASE("an array that is larger than its loop keeps its size") {
+  const std::string list = replaced(loop_list, "DECL target POINTS[3]", "DECL target POINTS[10]");
+  const Program program = read_joined(loop_program, list);
+  auto edits = robot_edits(program);
+  edits[1].inserted.push_back({Vector3(5, 0, 5.1), {}, edits[1].orientation});
+  const std::string text = rewrite(program, edits, {}).text;
+  CHECK(text.find("POINTS[10]") != std::string::npos);
+  CHECK(text.find("1 TO 4") != std::string::npos);
+}
+
+TEST_CASE("a loop that cannot be followed is refused or not corrected") {
+  const auto with_statement = [](const std::string& statement) {
+    return replaced(loop_program, "  LIN POINTS", "  " + statement + "\n  LIN POINTS");
+  };
+  CHECK(refusal_of(with_statement("POINTS[n].A=-30"), loop_list)
+            .find("job.src:6:3: error: 'POINTS[n].A' is "
+                  "computed at run time") == 0);
+  CHECK(refusal_of(with_statement("POINTS[n].at.X=1"), loop_list).find("computed at run time") !=
+        std::string::npos);
+  CHECK(read_joined(with_statement("unknown_routine()"), loop_list).moves[0].fixed[0]);
+  CHECK(read_joined(with_statement("$BASE=BASE_DATA[n]"), loop_list).moves[0].fixed[0]);
+  CHECK(read_joined(with_statement("IF f>1 THEN"), loop_list).moves[0].fixed[0]);
+  CHECK(refusal_of(loop_program, replaced(loop_list, "POINTS[2]={", "POINTS[4]={"))
+            .find("are not in the order of their indices") != std::string::npos);
+  CHECK(refusal_of(replaced(loop_program, "TO 3", "TO 4"), loop_list)
+            .find("are not all in the data list: it has 1 to 3") != std::string::npos);
+  CHECK(refusal_of(loop_program, "DEFDAT job\nENDDAT\n").find("--data FILE.dat") != std::string::npos);
+  CHECK(refusal_of(loop_program, replaced(loop_list, "X 10,Y 0", "X n,Y 0"))
+            .find("is not a target of plain numbers") != std::string::npos);
+}
+
+TEST_CASE("an array that other statements use is not corrected") {
+  const std::string program = replaced(loop_program, "ENDFOR\n", "ENDFOR\nLIN POINTS[2].at\n");
+  const Program read = read_joined(program, loop_list);
+  REQUIRE(!read.moves.empty());
+  CHECK(read.moves[0].fixed[0]);
+}
+
+TEST_CASE("the rest of the program is read beside a loop, and the loop begins in its state") {
+  std::string program =
+      replaced(loop_program, "FOR n", "$BASE=BASE_DATA[2]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 180}\nFOR n");
+  program = replaced(program, "ENDFOR\n", "ENDFOR\n$BASE=BASE_DATA[3]\nLIN {X 4,Y 5,Z 6,A 0,B 0,C 180}\n");
+  const Program read = read_joined(program, loop_list);
+  REQUIRE(read.moves.size() == 5);
+  CHECK(read.frames[read.moves[0].frame].work_offset == "BASE_DATA[2]");
+  CHECK(read.frames[read.moves[1].frame].work_offset == "BASE_DATA[3]");
+  CHECK(read.frames[read.moves[2].frame].work_offset == "BASE_DATA[2]");
+  CHECK(!read.moves[1].known_start[0]);
+  CHECK(!read.moves[2].known_start[0]);
+}
+
+TEST_CASE("a loop begins where the move before it ends, if no move follows the loop in the program") {
+  const std::string program =
+      replaced(loop_program, "FOR n", "LIN {X 1,Y 2,Z 3,A 0,B 0,C 180}\nPTP HOME\nFOR n");
+  CHECK(!read_joined(program, loop_list).moves[1].known_start[0]);
+  const Program read = read_joined(replaced(program, "PTP HOME\n", ""), loop_list);
+  REQUIRE(read.moves.size() == 4);
+  CHECK(read.moves[1].known_start[0]);
+  CHECK(read.moves[1].start_mm == Vector3(1, 2, 3));
+}
+
+TEST_CASE("a target that a data list names is changed there, or in the statement if others use it") {
+  const std::string program = "DEF job()\nPTP XHOME\nLIN XP1\nLIN XP2 C_DIS\nLIN XP1\nEND\n";
+  const std::string list =
+      "DEFDAT job\nDECL E6POS XP1={X 1,Y 2,Z 3,A 0,B 0,C 180,S 2,T 10,E1 0}\nDECL FDAT FP1={TOOL_NO 1}\n"
+      "DECL E6POS XP2={X 5,Y 2,Z 3,A 0,B 0,C 180,S 2,T 10,E1 0}\nENDDAT\n";
+  const Program read = read_joined(program, list);
+  REQUIRE(read.moves.size() == 3);
+  CHECK(read.moves[1].end_mm == Vector3(5, 2, 3));
+  auto edits = robot_edits(read);
+  edits[0].end_mm.z() += 0.1;
+  edits[1].end_mm.z() += 0.2;
+  const std::string text = rewrite(read, edits, {}).text;
+  CHECK(text.find("LIN {X 1,Y 2,Z 3.1,A 0,B 0,C 180,S 2,T 10,E1 0}\nLIN XP2 C_DIS\nLIN XP1\n") !=
+        std::string::npos);
+  CHECK(text.find("XP1={X 1,Y 2,Z 3,") != std::string::npos);
+  CHECK(text.find("XP2={X 5,Y 2,Z 3.2,") != std::string::npos);
+}
+
+TEST_CASE("a target in no list is refused with its cure") {
+  CHECK(refusal_of("DEF job()\nLIN XP9\nEND\n", loop_list).find("--data FILE.dat") != std::string::npos);
+}
+
+TEST_CASE("joined files are divided into the same bytes") {
+  for (const std::string first : {"a\nb", "a\nb\n", "", "a\r\n"})
+    for (const std::string second : {"c", "c\n", "\n", "d\r\n"}) {
+      std::string files[3];
+      FileSplitter splitter([&](std::size_t file, std::string_view bytes) { files[file] += bytes; });
+      const std::string text = first + "\n&FILE x.dat\n" + second + "\n&FILE y.dat\n" + second;
+      for (std::size_t at = 0; at < text.size();) {
+        const std::size_t end = std::min(text.find('\n', at), text.size() - 1) + 1;
+        splitter.add(std::string_view(text).substr(at, end - at));
+        at = end;
+      }
+      splitter.finish();
+      CHECK(files[0] == first);
+      CHECK(files[1] == second);
+      CHECK(files[2] == second);
+    }
+}
+
+namespace {
+
+/// The program and the data lists beside it whose names begin with its name.
+std::string with_lists(const std::filesystem::path& program) {
+  std::vector<std::string> files{program.string()};
+  for (const auto& entry : std::filesystem::directory_iterator(program.parent_path()))
+    if (entry.path().extension() == ".dat" &&
+        entry.path().stem().string().starts_with(program.stem().string()))
+      files.push_back(entry.path().string());
+  FileReader bytes = join_files(files);
+  std::string text;
+  while (bytes.append(text, 1 << 20) > 0) {
+  }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("each KUKA program of a folder of real programs is reproduced or refused with its line") {
+  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
+  if (folder == nullptr) {
+    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
+    return;
+  }
+  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
+    const std::string name = entry.path().filename().string();
+    if (!entry.is_regular_file() || !name.starts_with("kuka_") || entry.path().extension() != ".src")
+      continue;
+    CAPTURE(name);
+    const std::string text = with_lists(entry.path());
+    try {
+      const Program program = read_program(text, name, {});
+      CHECK(!program.moves.empty());
+      CHECK(unchanged(program) == text);
+      MESSAGE(name << ": " << program.moves.size() << " moves, " << program.left_alone.size()
+                   << " left alone");
+    } catch (const InputError& error) {
+      MESSAGE(std::string(error.what()));
+      CHECK(error.where().line > 0);
+      CHECK(error.where().column > 0);
+    }
+  }
+}
