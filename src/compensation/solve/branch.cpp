@@ -89,6 +89,63 @@ FollowedPath follow_branch(const Job& job) {
   return followed;
 }
 
+namespace {
+
+// The move that ends with the piece.
+const Move& move_of(const Job& job, const Piece& piece) {
+  if (piece.segment != no_segment) return job.program.moves[job.path.segments[piece.segment].move];
+  const auto& moves = job.program.moves;
+  return *std::lower_bound(moves.begin(), moves.end(), piece.line,
+                           [](const Move& move, int line) { return move.line < line; });
+}
+
+TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {
+  if (piece.segment == no_segment)
+    return {&model, piece.wanted, piece.R_wanted ? std::optional(*piece.R_wanted) : std::nullopt};
+  const Segment& segment = job.path.segments[piece.segment];
+  return {&model, segment.wanted.end, orientation_at(segment, 1)};
+}
+
+// The failure of an axis whose sign the target states, between its values for the wanted and the commanded
+// pose (rad).
+std::optional<Failure> sign_failure(const Travel& travel, double wanted, double commanded, int line) {
+  constexpr double exact = 1e-9;
+  const double from = std::remainder(wanted, 2 * pi), to = from + std::remainder(commanded - wanted, 2 * pi);
+  if ((from >= -exact) == (to >= -exact)) return std::nullopt;
+  return Failure{
+      ErrorKind::not_compensated, line,
+      fmt::format("the correction would move {} from {:.4f} to {:.4f} deg, across zero, but T of the "
+                  "target states its sign: the control would turn it by 360 deg; move to this place "
+                  "by joint angles, or move the part",
+                  travel.name, from / deg, to / deg)};
+}
+
+}  // namespace
+
+std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Piece>& pieces) {
+  std::optional<PlaceSolver> solver;
+  for (const Piece& piece : pieces) {
+    if (piece.u1 != 1 || !piece.turn) continue;
+    const Move& move = move_of(job, piece);
+    if (!move.orientation || move.orientation->stated_turns == StatedTurns::none) continue;
+    const Model& model = model_with(job.model, job.tools, move.tool);
+    if (!solver) solver.emplace(job);
+    const NominalResult wanted = solver->nominal(wanted_end(job, piece, model));
+    const NominalResult commanded =
+        solver->nominal({&model, piece.commanded.end, orientation_at(*piece.turn, 1)});
+    if (wanted.status != Status::converged || commanded.status != Status::converged) continue;
+    const Mechanism& mechanism = model.mechanism;
+    const Eigen::VectorXd from = actuator_values(mechanism, wanted.configuration),
+                          to = actuator_values(mechanism, commanded.configuration);
+    for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
+      if (mechanism.travel[i].kind != JointKind::revolute) continue;
+      const auto k = static_cast<Eigen::Index>(i);
+      if (auto failure = sign_failure(mechanism.travel[i], from[k], to[k], piece.line)) return failure;
+    }
+  }
+  return std::nullopt;
+}
+
 std::optional<Failure> turns_failure(const Job& job, const ActuatorWay& way, Eigen::VectorXd& last) {
   if (way.first.size() == 0) return std::nullopt;
   const Mechanism& mechanism = job.model.mechanism;

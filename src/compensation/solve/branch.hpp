@@ -27,6 +27,10 @@ struct FollowedPath {
 /// within 1 degree of another configuration.
 FollowedPath follow_branch(const Job& job);
 
+/// The failure of the first commanded target at which a rotary axis of the nominal machine leaves the turn
+/// that the target states.
+std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Piece>& pieces);
+
 /// Counts full turns on from `last`, where the window before ended, and sets `last` to the end of this one.
 /// The failure of an actuator that leaves its travel.
 std::optional<Failure> turns_failure(const Job& job, const ActuatorWay& way, Eigen::VectorXd& last);

@@ -106,9 +106,10 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   carry.path.command = last_command(job, result.corrected);
 }
 
-void take(Matching matching, WindowWork& work) {
+void take(const Job& job, Matching matching, WindowWork& work) {
   work.pieces = std::move(matching.pieces);
   work.result.failure = std::move(matching.failure);
+  if (!work.failed()) work.result.failure = stated_turns_failure(job, work.pieces);
 }
 
 void match_written(const Job& job, WindowWork& work) {
@@ -116,7 +117,7 @@ void match_written(const Job& job, WindowWork& work) {
   OtherLines lines;
   Matching matching = match_window(job, work.ways, lines, found);
   if (!matching.failure) matching.failure = match_end(lines, found);
-  take(std::move(matching), work);
+  take(job, std::move(matching), work);
 }
 
 // Where the plan fails the ends are not known. What is written may be right in spite of that.
@@ -163,7 +164,7 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
           .prepare = plan_ends,
           .write =
               [&carry](const Job& job, WindowWork& work) {
-                take(match_window(job, work.ways, carry.lines, carry.found), work);
+                take(job, match_window(job, work.ways, carry.lines, carry.found), work);
                 carry_path(job, carry.path, work);
               },
           .match = [](const Job&, WindowWork&) {},
