@@ -33,6 +33,20 @@ std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   return std::max<std::size_t>(2, bytes_of_cells / (sizeof(double) * numbers));
 }
 
+/// The cell in the middle of a cube of cells.
+CellIndex landmark_of(const CellIndex& index) {
+  constexpr long cells = 5;  // along an edge of the cube: 9: the same time
+  const auto middle = [](long i) {
+    return cells * static_cast<long>(std::floor((static_cast<double>(i) + 0.5) / cells)) + cells / 2;
+  };
+  CellIndex landmark;
+  for (std::size_t i = 0; i < 3; ++i) {
+    landmark.position[i] = middle(index.position[i]);
+    landmark.turn[i] = middle(index.turn[i] + cells / 2) - cells / 2;  // that of home turns by nothing
+  }
+  return landmark;
+}
+
 }  // namespace
 
 std::optional<Acting> acting_in(const Stage& stage, bool has_weight) {
@@ -100,9 +114,27 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellInde
   return cells.get(index, most_cells, [&] { return make_target(index, acting, work); });
 }
 
-std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const CellIndex& index) const {
+NominalResult StartTable::Impl::nominal_at(const CellIndex& index) {
+  const auto pose_of = [&](const CellIndex& at) {
+    const kernel::CellPlace place = place_of(at);
+    return Pose{place.R, place.centre};
+  };
+  const CellIndex landmark = landmark_of(index);
+  const auto from = landmarks_.get(landmark, most_cells, [&]() -> std::shared_ptr<const Configuration> {
+    NominalResult there = follow(model, model.home, pose_of(landmark));
+    if (there.status != Status::converged) return nullptr;
+    return std::make_shared<const Configuration>(std::move(there.configuration));
+  });
+  if (from) {
+    NominalResult near = follow(model, *from, pose_of(index));
+    if (near.status == Status::converged) return near;
+  }
+  return follow(model, model.home, pose_of(index));
+}
+
+std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const CellIndex& index) {
   const kernel::CellPlace place = place_of(index);
-  NominalResult nominal = follow(model, model.home, {place.R, place.centre});
+  NominalResult nominal = nominal_at(index);
   if (nominal.status != Status::converged) return nullptr;
   auto start = make_kinematics_cell(this->nominal(), place,
                                     state_of(model.mechanism, rigid, nominal.configuration, 0));

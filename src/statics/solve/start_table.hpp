@@ -21,7 +21,7 @@ std::optional<Acting> acting_in(const Stage& stage, bool has_weight);
 
 /// Nominal kinematics around the centre of a cell.
 struct KinematicsCell {
-  Configuration nominal;  ///< at the centre, reached straight from home
+  Configuration nominal;  ///< at the centre, reached straight from home or from the landmark of the cell
   kernel::StartCell start;
   std::optional<Matrix3> R_MT;  ///< of the nominal tip, where it does not depend on the position
 };
@@ -109,11 +109,15 @@ struct StartTable::Impl {
   kernel::Question nominal() const { return kernel::nominal_question(rigid.machine, rigid_transforms); }
 
  private:
-  std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index) const;
+  std::shared_ptr<const KinematicsCell> make_kinematics(const CellIndex& index);
+  /// The nominal configuration at the centre of a cell. It is reached straight from that of its landmark, a
+  /// cell near it that depends on the index alone; if that fails, from home.
+  NominalResult nominal_at(const CellIndex& index);
   std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting,
                                                        StaticsWork& work);
   kernel::CellPlace place_of(const CellIndex& index) const;
 
+  CellCache<Configuration> landmarks_;
   CellCache<KinematicsCell> kinematics_;
   std::array<CellCache<kernel::StartCell>, 4> targets_;
 };
