@@ -1,6 +1,7 @@
 #include "compensation/match/corrected_moves.hpp"
 
 #include <algorithm>
+#include <numeric>
 #include <string_view>
 #include <utility>
 
@@ -73,6 +74,19 @@ std::vector<Span> declared_numbers(const Program& window) {
   return numbers;
 }
 
+// The moves of the window in the order of their lines: those of a loop over a data list are in lines far
+// behind it.
+std::vector<std::size_t> in_text_order(const Program& window) {
+  std::vector<std::size_t> order(window.moves.size());
+  std::iota(order.begin(), order.end(), std::size_t{0});
+  const auto is_before = [&](std::size_t a, std::size_t b) {
+    return window.moves[a].block.begin < window.moves[b].block.begin;
+  };
+  if (!std::is_sorted(order.begin(), order.end(), is_before))
+    std::stable_sort(order.begin(), order.end(), is_before);
+  return order;
+}
+
 // A comment of the header and nothing else.
 bool is_header(std::string_view line) {
   for (const std::string_view mark : {";", "!", "#", "$$"})  // of robot languages, too
@@ -117,8 +131,9 @@ void OtherLines::end_statement() {
 }
 
 std::vector<std::size_t> OtherLines::add(const Program& window) {
-  std::vector<std::size_t> counts;
-  counts.reserve(window.moves.size());
+  std::vector<std::size_t> counts(window.moves.size());
+  const std::vector<std::size_t> order = in_text_order(window);
+  std::size_t next_move = 0;
   const std::string_view text = window.text;
   const std::vector<Span> declared = declared_numbers(window);
   std::size_t next_count = 0, next_number = 0;
@@ -128,9 +143,8 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     std::string_view line = text.substr(begin, end - begin);
     const std::size_t line_begin = std::exchange(begin, end + 1);
     bool moves = false;
-    for (; counts.size() < window.moves.size() && window.moves[counts.size()].block.begin <= end;
-         moves = true)
-      counts.push_back(count_);
+    for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true)
+      counts[order[next_move++]] = count_;
     if (moves) {
       end_statement();
       continue;

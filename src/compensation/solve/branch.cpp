@@ -95,8 +95,7 @@ namespace {
 const Move& move_of(const Job& job, const Piece& piece) {
   if (piece.segment != no_segment) return job.program.moves[job.path.segments[piece.segment].move];
   const auto& moves = job.program.moves;
-  return *std::lower_bound(moves.begin(), moves.end(), piece.line,
-                           [](const Move& move, int line) { return move.line < line; });
+  return *std::find_if(moves.begin(), moves.end(), [&](const Move& move) { return move.line == piece.line; });
 }
 
 TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {

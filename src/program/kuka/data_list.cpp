@@ -20,36 +20,58 @@ std::optional<KrlAggregate> target_of_element(std::string_view text, Span value,
   return aggregate_at(text, component->value.begin, component->value.end);
 }
 
-/// Begins the loop with that number: in the state in which the program enters it. The place is known if the
-/// move before it is the last one that was read.
-void enter_loop(KrlReading& r, std::size_t number, const RobotLine& line) {
-  if (number + 1 < r.active_loop)
-    refuse(
-        r.robot.program.file, line, line.code.begin,
-        fmt::format("the program runs the loop over '{0}' before the one over '{1}', but the data list has "
-                    "'{0}' behind '{1}'; write the arrays in the order of the loops",
-                    r.loops[number].loop.array, r.loops[r.active_loop - 1].loop.array));
-  if (number + 1 == r.active_loop) return;
-  r.active_loop = number + 1;
-  r.robot.state = r.loops[number].state;
-  if (number == 0 && r.loops[0].moves_before == r.robot.program.moves.size()) return;
-  forget_position(r.robot);
-  r.robot.state.moved_by_machine = true;
+/// The line that has the value of an element.
+RobotLine line_of(std::string_view text, const KrlNamed& element) {
+  const std::size_t newline = text.rfind('\n', element.value.begin);
+  RobotLine line;
+  line.line = element.line - 1;
+  line.line_end.end = newline == std::string_view::npos ? 0 : newline + 1;
+  next_robot_line(text, krl_comment, line);
+  return line;
+}
+
+/// The move of a loop to one element. In the order of the text it is at the statement of the loop.
+void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& element, bool passes) {
+  const std::string_view text = r.robot.program.text;
+  const auto aggregate = target_of_element(text, element.value, loop.member);
+  const auto target = aggregate ? krl_target(*aggregate) : std::nullopt;
+  const RobotLine line = line_of(text, element);
+  if (!target)
+    refuse(r.robot.program.file, line, element.value.begin,
+           fmt::format("'{}' is not a target of plain numbers: {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
+                       part(text, element.value)));
+  add_target_move(r.robot, line, *target, {.passes = passes});
+  r.robot.program.moves.back().text_line = loop.motion.line;
+}
+
+/// Refuses a loop whose targets are not in the data lists, one behind the other.
+void refuse_incomplete(const KrlReading& r, const KrlLoop& loop) {
+  const auto array = r.arrays.find(loop.array);
+  const auto wrong = [&](const std::string& what) {
+    refuse(r.robot.program.file, loop.motion, loop.motion.code.begin,
+           fmt::format("the targets {0}[{1}] to {0}[{2}] of this loop {3}", loop.array, loop.first, loop.last,
+                       what));
+  };
+  if (array == r.arrays.end()) wrong("are in no data list; give the list that has them with --data FILE.dat");
+  if (!array->second.in_order) wrong("are not in the order of their indices in the data list");
+  if (array->second.first > loop.first || array->second.last < loop.last)
+    wrong(fmt::format("are not all in the data list: it has {} to {}", array->second.first,
+                      array->second.last));
 }
 
 /// The size of the array of a loop is one of the program's counts.
 void read_declaration(KrlReading& r, const RobotLine& line) {
   Program& program = r.robot.program;
-  for (const KrlDataLoop& loop : r.loops) {
-    const auto size = declared_size(program.text, line, loop.loop.array);
+  for (const KrlLoop& loop : r.loops) {
+    const auto size = declared_size(program.text, line, loop.array);
     const auto number = size ? whole_number(program.text, *size) : std::nullopt;
     if (!number) continue;
     program.counts.push_back(*size);
-    const long last = r.arrays.find(loop.loop.array)->second.last;
+    const long last = r.arrays.find(loop.array)->second.last;
     if (*number < last)
-      refuse(program.file, line, size->begin,
-             fmt::format("'{}' is declared with {} elements, but the list has {}", loop.loop.array, *number,
-                         last));
+      refuse(
+          program.file, line, size->begin,
+          fmt::format("'{}' is declared with {} elements, but the list has {}", loop.array, *number, last));
   }
 }
 
@@ -72,39 +94,33 @@ std::optional<KrlAggregate> named_aggregate(const KrlReading& r, std::string_vie
 void read_names_of_lists(KrlReading& r) {
   const std::string_view text = r.robot.program.text;
   RobotLine line;
-  line.line_end.end = data_list_at(text);
+  const std::size_t list = data_list_at(text);
+  line.line =
+      static_cast<int>(std::count(text.begin(), text.begin() + static_cast<std::ptrdiff_t>(list), '\n'));
+  line.line_end.end = list;
   while (next_robot_line(text, krl_comment, line)) {
     if (part(text, line.code).find('{') == std::string_view::npos) continue;
     if (const auto assignment = assignment_in(text, line.code))
-      r.named.insert_or_assign(krl_word(part(text, assignment->variable)), KrlNamed{assignment->value, {}});
+      r.named.insert_or_assign(krl_word(part(text, assignment->variable)),
+                               KrlNamed{assignment->value, {}, line.line});
   }
 }
 
-bool begin_data_loop(KrlReading& r, const RobotLine& line) {
+bool read_data_loop(KrlReading& r, const RobotLine& line) {
   const std::string_view text = r.robot.program.text;
   if (in_body(r) || !r.why_not_followed.empty()) return false;
   const auto loop = loop_over_array(text, r.robot.program.file, line);
   if (!loop) return false;
-  if (r.named.contains(fmt::format("{}[{}]", loop->array, loop->first)) && !r.data_lists) return false;
-  const auto array = r.arrays.find(loop->array);
-  const auto wrong = [&](const std::string& what) {
-    refuse(r.robot.program.file, loop->motion, loop->motion.code.begin,
-           fmt::format("the targets {0}[{1}] to {0}[{2}] of this loop {3}", loop->array, loop->first,
-                       loop->last, what));
-  };
-  if (array == r.arrays.end()) wrong("are in no data list; give the list that has them with --data FILE.dat");
-  if (!array->second.in_order) wrong("are not in the order of their indices in the data list");
-  if (array->second.first > loop->first || array->second.last < loop->last)
-    wrong(fmt::format("are not all in the data list: it has {} to {}", array->second.first,
-                      array->second.last));
-  r.loops.push_back(
-      {*loop, r.robot.state, r.robot.program.moves.size(), passes_target(part(text, loop->motion.code))});
-  if (loop->sets_speed) r.robot.state.feed_mm_min = r.loops.back().state.feed_mm_min = 0;
+  const auto name_of = [&](long index) { return fmt::format("{}[{}]", loop->array, index); };
+  if (r.named.contains(name_of(loop->first)) && !r.data_lists) return false;
+  refuse_incomplete(r, *loop);
+  r.loops.push_back(*loop);
   r.behind_loop = loop->end;
   r.robot.program.counts.push_back(loop->last_number);
-  forget_position(r.robot);
-  r.robot.state.external = {};
-  r.robot.state.moved_by_machine = true;
+  if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
+  const bool passes = passes_target(part(text, loop->motion.code));
+  for (long index = loop->first; index <= loop->last; ++index)
+    add_element_move(r, *loop, r.named.find(name_of(index))->second, passes);
   return true;
 }
 
@@ -113,19 +129,9 @@ void read_data_line(KrlReading& r, const RobotLine& line) {
   if (r.loops.empty() || part(text, line.code).find('[') == std::string_view::npos) return;
   const auto element = element_in(text, line);
   if (!element) return read_declaration(r, line);
-  const auto loop = std::find_if(r.loops.begin(), r.loops.end(),
-                                 [&](const KrlDataLoop& l) { return l.loop.array == element->array; });
-  if (loop == r.loops.end()) return;
-  if (element->index < loop->loop.first || element->index > loop->loop.last)
-    return r.robot.program.counts.push_back(element->index_text);
-  enter_loop(r, static_cast<std::size_t>(loop - r.loops.begin()), line);
-  const auto aggregate = target_of_element(text, element->value, loop->loop.member);
-  const auto target = aggregate ? krl_target(*aggregate) : std::nullopt;
-  if (!target)
-    refuse(r.robot.program.file, line, element->value.begin,
-           fmt::format("'{}' is not a target of plain numbers: {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
-                       part(text, element->value)));
-  add_target_move(r.robot, line, *target, {.passes = loop->passes});
+  for (const KrlLoop& loop : r.loops)
+    if (loop.array == element->array && (element->index < loop.first || element->index > loop.last))
+      r.robot.program.counts.push_back(element->index_text);
 }
 
 }  // namespace counterflex

@@ -177,7 +177,7 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
            "GOTO is not supported; write the statements in the order in which they run");
   if (begins_routine(text, line)) return begin_or_end(r);
   if (head == "END" || head == "ENDFCT" || head == "ENDDEF") return end_routine(r);
-  if (head == "FOR" && begin_data_loop(r, line)) return;
+  if (head == "FOR" && read_data_loop(r, line)) return;
   if (head == "BAS") return read_krl_bas(r, line, name.end);
   if (is_one_of(head, body_begins)) ++r.robot.open_bodies;
   if (is_one_of(head, body_ends)) r.robot.open_bodies = std::max(r.robot.open_bodies - 1, 0);

@@ -14,14 +14,7 @@ namespace counterflex {
 struct KrlNamed {
   Span value{};                      ///< its aggregate
   std::optional<int> computed_in{};  ///< line that computes it at run time
-};
-
-/// A loop whose targets are in a data list, and the state in which it begins.
-struct KrlDataLoop {
-  KrlLoop loop;
-  RobotState state;
-  std::size_t moves_before = 0;  ///< of the program
-  bool passes = false;
+  int line = 0;                      ///< of a data list
 };
 
 struct KrlReading {
@@ -31,12 +24,11 @@ struct KrlReading {
   std::string tool{};                                    ///< right side of the last $TOOL
   std::string frame_data{};                              ///< right side of the last FDAT_ACT
   bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
-  std::string why_not_followed{};    ///< why linear moves are not followed; empty if they are
-  const bool data_lists = false;     ///< they follow the program
-  const KrlArrays& arrays;           ///< of the data lists
-  std::vector<KrlDataLoop> loops{};  ///< in the order in which they run
-  std::size_t active_loop = 0;       ///< whose elements are read
-  std::size_t behind_loop = 0;       ///< the statements before this byte are those of a loop
+  std::string why_not_followed{};  ///< why linear moves are not followed; empty if they are
+  const bool data_lists = false;   ///< they follow the program
+  const KrlArrays& arrays;         ///< of the data lists
+  std::vector<KrlLoop> loops{};    ///< over elements of these arrays
+  std::size_t behind_loop = 0;     ///< the statements before this byte are those of a loop
   bool routine_ended = false;
   bool in_data_list = false;
 };
@@ -57,11 +49,11 @@ std::optional<KrlAggregate> named_aggregate(const KrlReading& reading, std::stri
 /// Reads the names that the data lists give, before the statements that use them.
 void read_names_of_lists(KrlReading& reading);
 
-/// Reads FOR as a loop over the targets of a data list; false for another loop. Throws `InputError` if the
-/// elements of the array are not in a data list, in their order.
-bool begin_data_loop(KrlReading& reading, const RobotLine& line);
+/// Reads FOR as a loop over the targets of a data list: one move for each. False for another loop. Throws
+/// `InputError` if the elements of the array are not in a data list, in their order.
+bool read_data_loop(KrlReading& reading, const RobotLine& line);
 
-/// Reads a line of a data list: an element of the array of a loop is a move.
+/// Reads a line of a data list: sizes and indices of the arrays of loops count targets.
 void read_data_line(KrlReading& reading, const RobotLine& line);
 
 /// $BASE = ..., $TOOL = ...

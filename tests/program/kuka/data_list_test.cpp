@@ -136,27 +136,20 @@ TEST_CASE("an array that other statements use is not corrected") {
   CHECK(read.moves[0].fixed[0]);
 }
 
-TEST_CASE("the rest of the program is read beside a loop, and the loop begins in its state") {
+TEST_CASE("the moves of a loop are between those before and behind it") {
   std::string program =
       replaced(loop_program, "FOR n", "$BASE=BASE_DATA[2]\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 180}\nFOR n");
-  program = replaced(program, "ENDFOR\n", "ENDFOR\n$BASE=BASE_DATA[3]\nLIN {X 4,Y 5,Z 6,A 0,B 0,C 180}\n");
+  program =
+      replaced(program, "ENDFOR\n", "ENDFOR\nLIN {X 4,Y 5,Z 6,A 0,B 0,C 180}\n$BASE=BASE_DATA[3]\nEND\n");
   const Program read = read_joined(program, loop_list);
   REQUIRE(read.moves.size() == 5);
-  CHECK(read.frames[read.moves[0].frame].work_offset == "BASE_DATA[2]");
-  CHECK(read.frames[read.moves[1].frame].work_offset == "BASE_DATA[3]");
-  CHECK(read.frames[read.moves[2].frame].work_offset == "BASE_DATA[2]");
-  CHECK(!read.moves[1].known_start[0]);
-  CHECK(!read.moves[2].known_start[0]);
-}
-
-TEST_CASE("a loop begins where the move before it ends, if no move follows the loop in the program") {
-  const std::string program =
-      replaced(loop_program, "FOR n", "LIN {X 1,Y 2,Z 3,A 0,B 0,C 180}\nPTP HOME\nFOR n");
-  CHECK(!read_joined(program, loop_list).moves[1].known_start[0]);
-  const Program read = read_joined(replaced(program, "PTP HOME\n", ""), loop_list);
-  REQUIRE(read.moves.size() == 4);
-  CHECK(read.moves[1].known_start[0]);
+  for (const Move& move : read.moves) CHECK(read.frames[move.frame].work_offset == "BASE_DATA[2]");
   CHECK(read.moves[1].start_mm == Vector3(1, 2, 3));
+  CHECK(read.moves[2].start_mm == Vector3(0, 0, 5));
+  CHECK(read.moves[4].start_mm == Vector3(10, 20, 5));
+  CHECK(unchanged(read) == read.text);
+  const std::string behind_home = replaced(program, "FOR n", "PTP HOME\nFOR n");
+  CHECK(!read_joined(behind_home, loop_list).moves[1].known_start[0]);
 }
 
 TEST_CASE("a target that a data list names is changed there, or in the statement if others use it") {
