@@ -41,7 +41,7 @@ test('a failed run shows the failure, its place, and that no program was written
 test('residuals above the tolerance are at the top, reasons of blocks that are not corrected below', () => visit('bracket', async (page) => {
   const {blocks, warnings} = report_of('bracket');
   const [verdict] = await texts(page, '.verdict.warn');
-  assert.match(verdict, /more than the tolerance of 5.0 \u00b5m; [\d.]+ % of the cutting length is held to it/);
+  assert.match(verdict, /more than the tolerance of 5.0 \u00b5m; [\d.]+ % of the cutting length is within it/);
   const rows = await texts(page, '#remarks tbody tr');
   assert.ok(blocks.left_alone.length > 3 && warnings.length > 0);
   for (const {line, why} of blocks.left_alone) assert.ok(rows.includes(`${line}${why}`), why);

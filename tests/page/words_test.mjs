@@ -83,6 +83,8 @@ test('the verdict of the run comes first, and decides the colour', () => {
   assert.ok(partly.text.startsWith(`PARTLY (${reason}). `), partly.text);
   assert.match(partly.text, /No corrected program was written\.$/);
   assert.equal(partly.kind, 'warn');
+  const above = said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc', summary: {path_mm: 10, before: of(0.1), after: of(0.0095)}});
+  assert.match(above.text, /^PARTLY\. Off by .*more than the tolerance of 5\.0 \u00b5m/);
   assert.doesNotMatch(said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc'}).text, /No corrected program/);
   assert.equal(said({verdict: 'NOTHING CORRECTED', verdict_reason: 'no feed move', output: null}).kind, 'bad');
   const failure = {line: 3, what: 'too far'};

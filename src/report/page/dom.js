@@ -35,8 +35,10 @@
     return append(node, children);
   }
 
+  const classOf = (column) => [column.number && 'number', column.class].filter(Boolean).join(' ') || null;
+
   function cell(column, content, head) {
-    const attributes = {class: column.number ? 'number' : column.class};
+    const attributes = {class: classOf(column)};
     return head ? el('th', {...attributes, scope: 'row'}, content) : el('td', attributes, content);
   }
 
@@ -45,7 +47,7 @@
    * the row; a row may have `mark`, a class.
    */
   function table(caption, columns, rows) {
-    const head = columns.map((c) => el('th', {scope: 'col', class: c.number ? 'number' : c.class}, c.title));
+    const head = columns.map((c) => el('th', {scope: 'col', class: classOf(c)}, c.title));
     const body = rows.map((row) => el('tr', {class: row.mark}, columns.map((c, i) => cell(c, row[i], i === 0))));
     const whole = el('table', null, el('caption', null, caption), el('thead', null, el('tr', null, head)),
         el('tbody', null, body));
@@ -54,7 +56,7 @@
 
   /** Columns of words and of digits. */
   const textColumn = (title) => ({title, class: 'text'});
-  const numberColumn = (title) => ({title, number: true});
+  const numberColumn = (title, className) => ({title, number: true, class: className});
 
   /** A bar filled to a share of its length, 0 to 1. */
   function bar(share, className) {

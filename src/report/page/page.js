@@ -116,7 +116,7 @@
     const tables = el('div', {id: 'load-tables'});
     const drawn = addPlots(context, 'loads', loads.plots(context, group));
     body('loads').append(tables);
-    if (!drawn && !context.runs.some((run) => run.report.loads)) hide('loads');
+    if (!drawn && !loads.exist(context)) hide('loads');
     for (const plot of context.plots.slice(0, 2)) plot.ensure();
     counterflex.lazily(context.plots.slice(2));
   }

@@ -42,7 +42,7 @@ const counterflex = {};
   /** {lines: of the original program, [] if its text is unknown; output: the path of the corrected program, or ''}. */
   function decodeSource(source) {
     const {text, output} = source || {};
-    return {lines: typeof text === 'string' ? text.split('\n') : [], output: output || ''};
+    return {lines: typeof text === 'string' ? text.replace(/\n$/, '').split('\n') : [], output: output || ''};
   }
 
   /** With two runs each has a letter, A or B, besides its name. */

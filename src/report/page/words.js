@@ -54,7 +54,7 @@
     const tolerance = options['tolerance-mm'];
     if (!(summary.after.max_mm > tolerance)) return '';
     const {corrected_percent: held} = summary;
-    const share = known(held) ? `; ${percent(held)} of the cutting length is held to it` : '';
+    const share = known(held) ? `; ${percent(held)} of the cutting length is within it` : '';
     return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
   }
 
@@ -74,16 +74,19 @@
   const otherMoves = ({grouped, held, corrected_in_part: inPart, not_corrected: left}) =>
     (grouped || 0) + (held || 0) + (inPart || 0) + (left || 0);
 
-  /** The verdict as the terminal shows it; '' for a report of an older version. */
-  function verdictLine({verdict, verdict_reason: reason}) {
+  /**
+   * The verdict as the terminal shows it; '' for a report of an older version. The reason is left out if the sentence
+   * behind it has the same numbers in the unit of the page.
+   */
+  function verdictLine({verdict, verdict_reason: reason}, stated) {
     if (!verdict) return '';
-    return verdict === 'PARTLY' && reason ? `PARTLY (${reason})` : verdict;
+    return verdict === 'PARTLY' && reason && !stated ? `PARTLY (${reason})` : verdict;
   }
 
   /** The result of a run: its verdict and a sentence, and the kind: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
-    const line = verdictLine(report);
     const {text, kind} = sentence(report, units);
+    const line = verdictLine(report, Boolean(report.summary.after) && missed(report, units) !== '');
     if (!line) return {text, kind};
     if (report.failure) return {text: text.replace(/^Failed/, line), kind};
     const unwritten = report.command === 'compensate' && report.verdict !== 'OK' && !report.output;
@@ -150,7 +153,14 @@
   /** The same in a word or two. */
   const causeInShort = (causes) => leading(causes).map(({key}) => shortNames[key]).join(', ');
 
+  /** A text of the report, which is ASCII, with the spelling of units on pages. */
+  const unitsOf = (text) => text.replace(/\bN\/um\b/g, 'N/\u00b5m');
+
+  /** "T3, 10.0 mm"; only the diameter of a tool without a number. */
+  const toolAndSize = ({tool, diameter_mm: diameter}, units) =>
+    [tool > 0 ? `T${tool}` : '', known(diameter) ? units.length(diameter) : 'diameter unknown'].filter(Boolean).join(', ');
+
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName};
+  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName, toolAndSize, unitsOf};
 })();

@@ -5,7 +5,7 @@
 
   /** Components of a deviation: [part of the quantity's name, label]. */
   const components = [['', 'total'], ['x_', 'x'], ['y_', 'y'], ['z_', 'z'], ['along_', 'along the path'],
-    ['across_', 'across it'], ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
+    ['across_', 'across the path'], ['tool_axis_', 'along the tool axis'], ['rotation_', 'rotation']];
   const axes = components.slice(0, 4);
 
   const quantityName = (base, part) => (part === 'rotation_' ? `${base}_rotation_deg` : `${base}_${part}mm`);
@@ -154,7 +154,7 @@
   }
 
   const sourceSeries = (part) => [
-    {name: quantityName('before', part), label: 'both together', colour: '--ink', width: 2.5},
+    {name: quantityName('before', part), label: 'all together', colour: '--ink', width: 2.5},
     {name: quantityName('geometry', part), label: 'geometry', colour: '--geometry'},
     {name: quantityName('load', part), label: 'load', colour: '--load'},
     {name: quantityName('gravity', part), label: 'gravity', colour: '--gravity', dash: [10, 3, 2, 3]},
@@ -171,25 +171,29 @@
     return result;
   }
 
+  /** "at most 1.3 \u00b5m"; "less than 0.01 \u00b5m" for a value without shown digits. */
+  const atMost = (mm, units) => (Number(units.number(mm)) === 0 ? `less than ${units.format(mm || 1e-9).replace('0 ', '1 ')}`
+    : `at most ${units.format(mm)}`);
+
   /**
-   * The difference between the sum of the parts and both together, in a sentence. A small one hides one curve below the
+   * The difference between the sum of the parts and all together, in a sentence. A small one hides one curve below the
    * other.
    */
   function discrepancySentence(context) {
     const known = (run) => Boolean(run.curves && run.curves.quantities.discrepancy_mm);
-    const of = (run) => (known(run) ? context.units.format(largestOf(run, 'discrepancy_mm')) : 'unknown');
-    const values = context.runs.map((run) => (run.letter ? `${run.letter} ${of(run)}` : of(run))).join(', ');
-    return `Both together differ from the sum of the parts by at most ${values} (discrepancy).`;
+    const of = (run) => (known(run) ? atMost(largestOf(run, 'discrepancy_mm'), context.units) : 'unknown');
+    const values = context.runs.map((run) => (run.letter ? `${of(run)} in ${run.letter}` : of(run))).join(', ');
+    return `All causes together differ from the sum of the parts by ${values} (discrepancy).`;
   }
 
-  /** Geometry, load, gravity, their sum and both together: as in Figs 7 and 8 of the paper. */
+  /** Geometry, load, gravity, their sum and all together: as in Figs 7 and 8 of the paper. */
   function sources(context, group, points) {
     if (!has(context, 'superposition_mm')) return null;
     const state = {part: '', log: false, plots: []};
     const note = el('p', {class: 'note'});
     const update = () => fill(note, discrepancySentence(context));
     const content = () => describe(context, group, points, sourceSeries(state.part), context.units.scale, {
-      title: `Sources of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`,
+      title: `Causes of the deviation before: ${labelOf(state.part)}, in ${context.units.words}`,
       axis: `Deviation, ${context.units.label}`, log: state.log, text: textIn('', context.units)});
     state.plots.push(counterflex.plot.create(context, group, content, 'sources'));
     context.units.subscribe(update);

@@ -12,6 +12,10 @@
     ['passive_change_max_deg', "Passive joint's change", 'deg'],
   ];
 
+  const least = 1e-6;  // of a load that counts, in any of its units: smaller ones are rounding errors of the solver
+
+  const counts = (load) => Boolean(load) && load.largest > least;
+
   const colours = ['--x', '--y', '--z', '--gravity', '--sum', '--discrepancy'];
   const lineDashes = [null, [8, 4], [2, 3], [10, 3, 2, 3]];
 
@@ -43,7 +47,7 @@
   /** "23.3 N m, line 9", and the use of the limit. */
   function cellOf(chain, name, unit, context, index) {
     const load = chain[name];
-    if (!load || !(load.largest > 0)) return '\u2013';
+    if (!counts(load)) return '\u2013';
     const line = counterflex.lines.link(context, index, load.line, placeOfLargest(context.runs[index], chain, name));
     const limit = known(load.limit) ? el('div', null, `limit ${textOf(load.limit, unit, context.units)} `, use(load)) : null;
     return [el('span', {class: exceeds(load) ? 'over' : null}, textOf(load.largest, unit, context.units)), ', line ', line, limit];
@@ -56,7 +60,7 @@
     if (!loads) return null;
     const {chains} = loads;
     const limited = (name) => chains.some((chain) => chain[name] && known(chain[name].limit));
-    const present = quantities.filter(([name]) => chains.some((chain) => chain[name] && chain[name].largest > 0))
+    const present = quantities.filter(([name]) => chains.some((chain) => counts(chain[name])))
         .sort(([a], [b]) => limited(b) - limited(a));
     if (present.length === 0) return null;
     const columns = [{title: 'Load'}, ...chains.map((chain) => textColumn(chain.name))];
@@ -66,6 +70,10 @@
       !chains.some(hasLimit) && 'the machine file gives no limits'].filter(Boolean).join('; ');
     return table(words.ofRun(run, caption), columns, rows);
   }
+
+  /** Whether a run has a load that counts. */
+  const exist = ({runs}) => runs.some(({report}) => report.loads &&
+    report.loads.chains.some((chain) => quantities.some(([name]) => counts(chain[name]))));
 
   const render = (context) => el('div', {class: 'runs'}, context.runs.map((_, i) => tableOf(context, i)));
 
@@ -99,7 +107,7 @@
   /** The kinds of loads that some chain has. */
   function present(context) {
     const chains = context.runs.flatMap((run) => (run.loads ? run.loads.chains : []));
-    return quantities.filter(([name]) => chains.some((chain) => (chain[name] || []).some((v) => v > 1e-9)));
+    return quantities.filter(([name]) => chains.some((chain) => (chain[name] || []).some((v) => v > least)));
   }
 
   function describe(context, group, points, state) {
@@ -132,5 +140,5 @@
     return {plots: [plot], content: [el('div', {class: 'controls'}, choice), plot.node]};
   }
 
-  counterflex.loads = {render, plots, pointsOf, placeOfLargest};
+  counterflex.loads = {render, exist, plots, pointsOf, placeOfLargest};
 })();

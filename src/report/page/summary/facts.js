@@ -107,7 +107,7 @@
     const columns = [{title: 'Tool'}, numberColumn(`Length, ${units.lengthLabel}`),
       numberColumn('Stiffness at its tip, N/\u00b5m'), textColumn('From')];
     const stiffness = (tool) => (known(tool.radial_N_per_um) ? fixed(tool.radial_N_per_um, 2) : 'rigid');
-    const rows = tools.map((t) => [`T${t.number}`, units.lengthNumber(t.length_mm), stiffness(t), t.stiffness]);
+    const rows = tools.map((t) => [`T${t.number}`, units.lengthNumber(t.length_mm), stiffness(t), words.unitsOf(t.stiffness)]);
     return table(words.ofRun(run, 'Tools'), columns, rows);
   }
 

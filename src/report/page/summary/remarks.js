@@ -16,13 +16,13 @@
     const checks = run.report.sanity || [];
     if (checks.length === 0) return null;
     const rows = checks.map(({check, state, text}) =>
-      Object.assign([`${marks[state]} ${check}`, state, text], {mark: state === 'ok' ? '' : 'different'}));
-    return table(words.ofRun(run, 'Checks'), [{title: 'Check'}, textColumn('State'), textColumn('Found')], rows);
+      Object.assign([`${marks[state]} ${check}`, state, words.unitsOf(text)], {mark: state === 'ok' ? '' : 'different'}));
+    return table(words.ofRun(run, 'Checks'), [{title: 'Check', class: 'lines'}, {title: 'State'}, textColumn('Found')], rows);
   }
 
   function warnings(run, link) {
     const {warnings: rows, warning_count: count} = run.report;
-    const cells = rows.map(({line, what}) => [link(line), what]);
+    const cells = rows.map(({line, what}) => [link(line), words.unitsOf(what)]);
     return list(run, words.counted(count, 'warning'), 'What', cells, count);
   }
 

@@ -47,7 +47,7 @@
     if (!tool) return null;
     const largest = Math.max(tool.after.rim_mm, tool.after.flank_mm || 0);
     const mark = largest > tolerance(report) ? 'warn' : '';
-    const note = `${words.toolName(tool.tool)}, ${units.length(tool.diameter_mm)}: the tool stays tilted`;
+    const note = `${words.toolAndSize(tool, units)}: the tool stays tilted`;
     return card('tool', 'After, at rim and flank', units.format(largest), note, mark);
   }
 
@@ -81,9 +81,9 @@
       after && deviationCard('after', 'After (model residual)', after, place),
       after && toolCard(report, units),
       before && !after && acrossCard(before, units),
-      times && card('factor', 'Factor', `${times} \u00d7`, 'smaller at its largest'),
+      times && card('factor', 'Factor', `${times} \u00d7`, 'largest before / largest after'),
       typeof share === 'number' && correctedCard(report),
-      air && airCard(report, place),
+      air && report.forces.largest_N > 0 && airCard(report, place),
       correction && correction.max_mm > 0 && correctionCard(report, place),
     ].filter(Boolean);
   }
@@ -98,13 +98,13 @@
     if (others > 0) add(`${words.counted(others, 'move')} not corrected individually`, 'remarks');
     else if (report.blocks.left_alone_count > 0) add('some blocks are not or partly corrected', 'remarks');
     for (const {check, state, text} of report.sanity || [])
-      if (state === 'doubtful') add(`${check}: ${text}`, 'remarks');
+      if (state === 'doubtful') add(`${check}: ${words.unitsOf(text)}`, 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
     if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
       add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
     if (air && !report.failure && air.max_mm > tolerance(report))
-      add(`without the cutting force the program is off by up to ${units.format(air.max_mm)}: no dry run on the finished part`,
+      add(`without the cutting force the program is off by up to ${units.format(air.max_mm)}: do not run it dry on the finished part`,
           'sensitivity');
     return list;
   }
@@ -160,7 +160,7 @@
   function assumptionList({report}) {
     const {work, datum, tools, gravity} = report.assumptions || {};
     const list = [work, datum, forceSentence(report), tools, gravity].filter(Boolean);
-    return el('div', {class: 'assumptions'}, el('h3', null, 'Assumed'), el('ul', null, list.map((text) => el('li', null, text))));
+    return el('div', {class: 'assumptions'}, el('h3', null, 'Assumed'), el('ul', null, list.map((text) => el('li', null, words.unitsOf(text)))));
   }
 
   function headingOf(run) {

@@ -17,7 +17,10 @@
   ];
 
   const show = (key, x, units) => (!known(x) ? unknown : key.endsWith('_deg') ? x.toFixed(4) : units.number(x));
-  const signed = (key, x, units) => (known(x) && x > 0 ? `+${show(key, x, units)}` : show(key, x, units));
+  function signed(key, x, units) {
+    const text = show(key, x, units);
+    return x > 0 && Number(text) !== 0 ? `+${text}` : text;
+  }
 
   /** The cells of one number: for each run, and for two runs the difference B - A. */
   function across(values, key, units) {
@@ -54,9 +57,9 @@
     if (tools.length === 0) return null;
     const corrected = tools.some((tool) => tool.after);
     const columns = [textColumn('Tool'), {title: 'Where'}, numberColumn('Before'), ...(corrected ? [numberColumn('After')] : [])];
-    const rows = tools.flatMap((tool) => toolParts.filter(([, key]) => key !== 'flank_mm' || known(tool.flute_mm)).map(([part, key]) => {
-      const size = known(tool.diameter_mm) ? units.length(tool.diameter_mm) : 'diameter unknown';
-      return [`${words.toolName(tool.tool)}, ${size}`, part, show(key, value(tool.before, key), units),
+    const has = {rim_mm: 'diameter_mm', flank_mm: 'flute_mm'};  // the size of the tool that a part needs
+    const rows = tools.flatMap((tool) => toolParts.filter(([, key]) => !has[key] || known(tool[has[key]])).map(([part, key]) => {
+      return [words.toolAndSize(tool, units), part, show(key, value(tool.before, key), units),
         ...(corrected ? [show(key, value(tool.after, key), units)] : [])];
     }));
     return table(words.ofRun(run, `Largest over the tool, in ${units.words}`), columns, rows);
@@ -84,9 +87,9 @@
   }
 
   /** One line; the title has all of a long comment. */
-  const nameCell = (operation, link) => Object.assign(link, {title: nameOf(operation), className: 'clamp'});
+  const nameCell = (title, link) => Object.assign(link, {title, className: 'clamp'});
 
-  const nameOf = (operation) => operation.operation || (operation.tool > 0 ? '(no name)' : '(the whole program)');
+  const nameOf = (operation, isOnly) => operation.operation || (isOnly ? '(whole program)' : '(no name)');
 
   /** The runs' operations aligned by tool and name: [{operation, of: [operation or undefined, ...]}]. */
   function aligned(runs) {
@@ -102,11 +105,12 @@
     return rows;
   }
 
-  function operationRow({operation, of}, context, corrected) {
+  function operationRow({operation, of}, context, corrected, isOnly) {
     const {runs, units} = context;
     const run = of.findIndex(Boolean);
     const go = () => context.goToOperation(run, runs[run].report.operations.indexOf(of[run]));
-    const name = nameCell(operation, jump(nameOf(operation), 'curves', go, `${nameOf(operation)}: show it in the curves`));
+    const text = nameOf(operation, isOnly);
+    const name = nameCell(text, jump(text, 'curves', go, `${text}: show it in the curves`));
     const largest = (key) => across(runs.map((_, r) => value(of[r] && of[r][key], 'max_mm')), 'max_mm', units);
     const shares = runs.map((_, r) => (of[r] ? percent(of[r].corrected_percent) : unknown)).join(' / ');
     const lines = `${operation.first_line}\u2013${operation.last_line}`;
@@ -120,10 +124,10 @@
     const rows = aligned(runs);
     if (rows.length === 0) return null;
     const corrected = runs.some((run) => run.report.summary.after);
-    const columns = [textColumn('Operation'), {title: 'Tool'}, {title: 'Lines', class: 'lines'}, numberColumn('Moves'),
-      numberColumn(`Length, ${units.lengthLabel}`), ...(corrected ? [numberColumn('Corrected')] : []),
+    const columns = [textColumn('Operation'), {title: 'Tool', class: 'minor'}, {title: 'Lines', class: 'lines'},
+      numberColumn('Moves', 'minor'), numberColumn(`Length, ${units.lengthLabel}`, 'minor'), ...(corrected ? [numberColumn('Corrected')] : []),
       ...beforeAndAfter(runs, corrected)];
-    const cells = rows.map((row) => operationRow(row, context, corrected));
+    const cells = rows.map((row) => operationRow(row, context, corrected, rows.length === 1));
     return table(`Largest deviation, in ${units.words}`, columns, cells);
   }
 
@@ -143,7 +147,7 @@
     const {sensitivity, after, before} = run.report.summary;
     if (!sensitivity) return null;
     const columns = [{title: `In ${units.words}`},
-      ...['Largest', 'Line', '95 % below', 'Across the path'].map(numberColumn)];
+      ...['Largest', 'Line', '95 % below', 'Across the path'].map((title) => numberColumn(title))];
     const link = (line, quantity) => counterflex.lines.link(context, index, line, {quantity});
     const cases = [['Force as given', after || before, after ? 'after_mm' : 'before_mm'],
       ...otherForces.map(([key, what, quantity]) => [what, sensitivity[key], quantity])];

@@ -37,7 +37,7 @@
     const bars = spans(causes, total);
     const ends = bars.flat(2);
     const scale = [Math.min(0, ...ends), Math.max(0, ...ends)];
-    const columns = [{title: ''}, ...['x', 'y', 'z', 'Size'].map(numberColumn)];
+    const columns = [{title: ''}, ...['x', 'y', 'z', 'Size'].map((title) => numberColumn(title))];
     const size = (vector) => signed(counterflex.vectors.norm(vector), units).replace('+', '');
     const row = (name, vector, key, spansOfRow) => [name,
       ...vector.map((v, k) => [signed(v, units), spansOfRow ? bar(spansOfRow[k], scale, key) : null]), size(vector)];
