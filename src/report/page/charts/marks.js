@@ -26,19 +26,25 @@
     return result;
   }
 
-  function label(canvas, text, x, y) {
-    canvas.fillStyle = colour('--muted');
+  /** Text with a halo in the background colour, legible over lines. */
+  function write(canvas, text, x, y, align, ink) {
     canvas.font = '11px sans-serif';
-    canvas.textAlign = 'left';
-    canvas.fillText(text, x + 3, y);
+    canvas.textAlign = align;
+    canvas.setLineDash([]);
+    canvas.lineJoin = 'round';
+    canvas.lineWidth = 4;
+    canvas.strokeStyle = colour('--ground');
+    canvas.strokeText(text, x, y);
+    canvas.fillStyle = ink;
+    canvas.fillText(text, x, y);
   }
 
   /** Writes the line numbers of marks if there is room. */
-  function labels(canvas, marks, y) {
+  function labels(canvas, area, marks, y) {
     let free = -Infinity;
     for (const {x, line} of marks) {
-      if (x < free) continue;
-      label(canvas, String(line), x, y);
+      if (x < free || x + 24 > area.x + area.w) continue;
+      write(canvas, String(line), x + 3, y, 'left', colour('--muted'));
       free = x + closest;
     }
   }
@@ -67,10 +73,8 @@
   }
 
   function drawBlocks(canvas, area, blocks) {
-    if (blocks.length === 0 || blocks.length > area.w / 24) return;
     canvas.strokeStyle = colour('--line');
     for (const {x} of blocks) vertical(canvas, area, x, [], 1);
-    labels(canvas, blocks, area.y + 17);
   }
 
   /** Whether marks are drawn only at the edge: they are too many, or represent others. */
@@ -100,12 +104,15 @@
   /** Draws marks under the curves. `toX` takes path length to the canvas, `shown` are the kinds to draw. */
   function draw(canvas, area, marks, toX, shown) {
     canvas.save();
-    if (shown.blocks) drawBlocks(canvas, area, inView(marks.blocks, toX, area));
+    const all = shown.blocks ? inView(marks.blocks, toX, area) : [];
+    const blocks = all.length > area.w / 24 ? [] : all;
+    drawBlocks(canvas, area, blocks);
     for (const [kind, drawKind] of [['rapids', drawRapids], ['steps', drawSteps]]) {
       if (!shown[kind]) continue;
       const visible = inView(marks[kind], toX, area);
       drawKind(canvas, area, visible, tooMany(visible, area, marks.thinned[kind]));
     }
+    labels(canvas, area, blocks, area.y + 18);
     canvas.restore();
   }
 
@@ -130,10 +137,7 @@
     canvas.moveTo(area.x, y);
     canvas.lineTo(area.x + area.w, y);
     canvas.stroke();
-    canvas.fillStyle = colour('--limit');
-    canvas.font = '11px sans-serif';
-    canvas.textAlign = 'right';
-    canvas.fillText(text, area.x + area.w - 4, y < area.y + 14 ? y + 12 : y - 4);
+    write(canvas, text, area.x + area.w - 4, y < area.y + 14 ? y + 12 : y - 4, 'right', colour('--limit'));
     canvas.restore();
   }
 

@@ -67,12 +67,19 @@
     return printing || !group.window ? null : group.window.map((s) => s * context.units.lengthScale);
   }
 
+  /** The low plots of paper have closer labels, and only the unit of an axis with a long name: the title has the name. */
+  function valueAxis({content: {axis}, printing}) {
+    const isLong = printing && axis.length > 16;
+    return {ylabel: isLong ? axis.split(', ').pop() : axis, pixelsPerLabel: printing ? 15 : 26};
+  }
+
   /** Options that depend on data, unit, theme and window. */
   function options(plot) {
     const {series, rows, log} = plot.content;
     const held = heldLevels(plot.content);
     const axis = {axisLineColor: colour('--muted'), gridLineColor: colour('--line'), axisLabelFontSize: 12,
       axisLabelFormatter: tick};
+    const {ylabel, pixelsPerLabel} = valueAxis(plot);
     return {
       file: withLevels(log ? magnitudes(rows) : rows, held),
       labels: ['s', ...series.map((s) => s.label), ...held.map((_, i) => `level ${i}`)],
@@ -83,9 +90,9 @@
       logscale: Boolean(log),
       includeZero: !log,
       xlabel: `Path length, ${plot.context.units.lengthLabel}`,
-      ylabel: plot.content.axis,
+      ylabel,
       axes: {x: {...axis, drawGrid: false, ticker: Dygraph.numericTicks},
-        y: {...axis, axisLabelWidth: 64, pixelsPerLabel: 26}},
+        y: {...axis, axisLabelWidth: 64, pixelsPerLabel}},
     };
   }
 
@@ -185,8 +192,9 @@
     plot.host.querySelectorAll('.paper-copy').forEach((copy) => copy.remove());
     plot.host.style.width = on ? `${paperWidth}px` : '';
     plot.host.style.height = on ? `${paperHeight}px` : '';
+    const {ylabel, pixelsPerLabel} = valueAxis(plot);
     quietly(plot, () => {
-      plot.graph.updateOptions({pixelRatio: on ? 3 : null, dateWindow: windowOf(plot)}, true);
+      plot.graph.updateOptions({pixelRatio: on ? 3 : null, dateWindow: windowOf(plot), ylabel, axes: {y: {pixelsPerLabel}}}, true);
       plot.graph.resize();
     });
     if (on) copyForPaper(plot);

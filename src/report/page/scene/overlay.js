@@ -86,10 +86,12 @@
     note(`\u25be ${text}`);
   }
 
+  const barWidth = (size) => Math.round(Math.min(260, 0.6 * size.width));
+
   /** The scale of colours, upper left: {title, range: {low, high} in mm, tolerance_mm}; without a largest value only the title. */
   function colourBar(context, size, theme, bar, units) {
     if (!(bar.range.high > 0)) return write(context, theme, bar.title, edge, edge + 6);
-    const width = Math.round(Math.min(260, 0.6 * size.width));
+    const width = barWidth(size);
     const y = edge + 22;
     plate(context, theme, 0, 0, width + 4 * edge, y + 48);
     write(context, theme, bar.title, edge, edge + 6);
@@ -145,7 +147,8 @@
     const width = context.measureText(mark.text).width + 12;
     const toLeft = mark.x + radius + 6 + width > size.width;
     const x = Math.min(Math.max(2, toLeft ? mark.x - radius - 6 - width : mark.x + radius + 6), size.width - width - 2);
-    const y = Math.min(Math.max(14, mark.y - 16), size.height - 14);
+    const onScale = x < barWidth(size) + 4 * edge && mark.y - 27 < edge + 70;
+    const y = Math.min(Math.max(14, onScale ? mark.y + 18 : mark.y - 16), size.height - 14);
     context.fillStyle = counterflex.colours.css(theme.ground);
     context.fillRect(x, y - 11, width, 22);
     context.lineWidth = 1;
@@ -156,10 +159,10 @@
   /** The whole overlay: `picture` = {theme, camera, units, bar, notes: [text], marks: [{x, y, text, radius}]}. */
   function draw(context, size, picture) {
     const {theme, camera, units} = picture;
-    for (const mark of picture.marks) label(context, size, theme, mark, mark.radius);
     colourBar(context, size, theme, picture.bar, units);
     triad(context, size, theme, camera);
     lengths(context, size, theme, camera, units, picture.notes);
+    for (const mark of picture.marks) label(context, size, theme, mark, mark.radius);
   }
 
   counterflex.overlay = {draw, ticks};

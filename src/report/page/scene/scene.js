@@ -6,7 +6,10 @@
 (() => {
   const {el} = counterflex.dom;
   const picture = counterflex.scenePicture;
-  const margin = [30, 70];  // pixels beside a fitted path, and above and below for scales and axes
+  const margin = [30, 84];  // pixels beside a fitted path, and above and below for scales and axes
+  /** Sizes of one printed picture, of two and of more in a row. Texts are smaller in a picture of more pixels. */
+  const paperSizes = {1: {width: 800, height: 400, ratio: 3}, 2: {width: 520, height: 330, ratio: 4},
+    3: {width: 300, height: 230, ratio: 6}};
   const hint = 'Drag: turn. Shift or right button: move. Wheel (after a click), + and \u2212: zoom. '
     + 'Double click, 0: fit. Click on the path, \u2190 \u2192: choose a place. '
     + 'Shift + arrows: turn. Ctrl + arrows: move.';
@@ -229,11 +232,12 @@
         azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
-    /** For paper: the whole path of each run, before and after, one below the other. */
+    /** For paper: the whole path of each run, before and after. */
     drawForPrint() {
-      const size = {width: 520, height: 270, ratio: 4};
+      const pictures = picture.printed(this.facts, this.runs, this.shown.factor);
+      const size = paperSizes[Math.min(pictures.length, 3)];
       const chosen = this.chosen();
-      const canvases = picture.printed(this.facts, this.runs, this.shown.factor).map((shown) => {
+      const canvases = pictures.map((shown) => {
         const canvas = el('canvas', {class: 'scene-paper', 'data-run': shown.run, 'data-kind': shown.kind,
           'data-factor': shown.factor});
         const marked = chosen >= 0 && shown.run === this.shown.run ? [{stretch: chosen, radius: 7}] : [];
