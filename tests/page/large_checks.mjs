@@ -1,6 +1,6 @@
 import assert from 'node:assert/strict';
 import test from 'node:test';
-import {bytes_of, data_in, pixels, texts, visit, write_page} from './browser.mjs';
+import {bytes_of, data_in, pixels, report_of, texts, visit, write_page} from './browser.mjs';
 
 test('the page of a long program is small, for any length', () => {
   const {curves} = data_in('large').runs[0];
@@ -26,6 +26,14 @@ test('the page of a long program is ready a few times later than that of six blo
 test('least and largest values of merged points are drawn', () => visit('large', async (page) => {
   assert.ok(await pixels(page, '.plot.before canvas', '--before') > 2000);
   assert.match(await page.innerText('#curves'), /Each stretch of \d+ points is drawn with its least and its largest value/);
+}));
+
+test('the largest deviation of a long program is shown as a sum of its causes', () => visit('large', async (page) => {
+  const {before, sources: {at_worst}} = report_of('large').summary;
+  assert.match(await page.innerText('#place h3'), new RegExp(`^Line ${before.max_line}$`));
+  const cells = await texts(page, '#place .vector-sum tr.total td');
+  at_worst.before_mm.forEach((mm, k) => assert.ok(Math.abs(Number(cells[k].replace('\u2212', '-')) - 1000 * mm) < 0.51, cells[k]));
+  assert.match(await page.innerText('#place .cause'), /^Off by [\d.]+ \u00b5m before: .*After: up to [\d.]+ \u00b5m\.$/);
 }));
 
 test('a page with thinned marks has a note', async () => {

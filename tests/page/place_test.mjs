@@ -42,6 +42,18 @@ test('a run without attribution shows the deviation, a chosen row has its own si
   assert.deepEqual(told(run_of([5, 5], [1, 2], [NaN, NaN]), 1, {line: 5, causes: {load_mm: 7}}), [2, false, 7, 0.001]);
 });
 
+test('a stretch of several waypoints has the causes of the largest deviation of the run', () => {
+  const run = run_of([5, 8, 9], [1, 3, 2]);
+  run.curves.waypoints_per_stretch = 2;
+  const at_worst = {line: 8, place_mm: [7, 0, 0], before_mm: [3, 0, 0], superposition_mm: [2, 0, 0], geometry_mm: [1.5, 0, 0], load_mm: [0.5, 0, 0]};
+  run.report.summary = {sources: {at_worst}};
+  const {vectors, causes, place_mm} = plain(place.ofStretch(run, 1));
+  assert.deepEqual([vectors.before.vector, causes.map(({vector}) => vector[0]), place_mm], [[3, 0, 0], [1.5, 0.5, 1], [7, 0, 0]]);
+  for (const [i, row] of [[0, undefined], [2, undefined], [1, {line: 7}]]) assert.equal(place.ofStretch(run, i, row).causes.length, 0);
+  const row = {line: 9, before_mm: 1.5, after_mm: 0.0005};
+  assert.deepEqual(told(run, 2, row), [1.5, false, null, 0.0005]);
+});
+
 test('the text of the line is in the program', () => {
   const run = run_of([2, 3], [1, 2]);
   run.source.lines = ['G21', 'G1 X5', 'Y5'];

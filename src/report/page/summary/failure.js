@@ -7,15 +7,7 @@
   // Exit statuses in reports: programs/guide/safety.md.
   const exits = {program: 3, notCompensated: 5, limit: 6};
 
-  /** The causes at the place of a failure, [{key, name, vector}]. */
-  function causesOf(at) {
-    const listed = ['geometry', 'load', 'gravity', 'preloads'].filter((base) => at[`${base}_mm`])
-        .map((base) => ({key: `${base}_mm`, name: words.partName(`${base}_mm`), vector: at[`${base}_mm`]}));
-    const rest = at.before_mm.map((v, k) => v - at.superposition_mm[k]);
-    return [...listed, {key: 'discrepancy_mm', name: words.partName('discrepancy_mm'), vector: rest}];
-  }
-
-  const sizesOf = (causes) => Object.fromEntries(causes.map(({key, vector}) => [key, vectors.norm(vector)]));
+  const {causesOf, sizesOf} = vectors;
 
   const ofGeometry = 'If the part is touched off on this machine, state it: datum = { touched_at_mm = [x, y, z] } in [work] of the '
     + 'machine file. The shift that all deviations have in common is then not corrected.';
@@ -93,7 +85,7 @@
     const corrected = known(failure.corrected_line) && failure.corrected_line > 0 ? `, line ${failure.corrected_line} of the corrected program` : '';
     const title = failure.line > 0 ? `Line ${failure.line}${corrected}` : 'The whole program';
     return el('div', {class: 'place-card'}, el('h3', null, words.ofRun(run, title)), excerpt(run, failure.line),
-        stretch >= 0 ? counterflex.place.causes(counterflex.place.ofStretch(run, stretch), units) : deviationThere(failure, units),
+        stretch >= 0 ? counterflex.place.sentence(counterflex.place.ofStretch(run, stretch, {line: failure.line}), units) : deviationThere(failure, units),
         list.length > 0 ? [el('h3', null, 'What to do'), el('ul', null, list.map((text) => el('li', null, text)))] : null);
   }
 

@@ -19,27 +19,47 @@
     return list.filter(({vector}) => vector);
   }
 
-  /** Sizes of causes under the keys of a report's row. */
-  const sizesOf = (causes) => Object.fromEntries(causes.map(({key, vector}) => [key, counterflex.vectors.norm(vector)]));
+  const {causesOf, norm, sizesOf} = counterflex.vectors;
+
+  /** The place of the largest deviation of a run, if it is in stretch `i`; else null. The report has its causes as vectors. */
+  function largestIn({curves: c, report}, i) {
+    const {at_worst: place} = (report.summary && report.summary.sources) || {};
+    if (!place || !place.superposition_mm || place.line < c.first_line[i] || place.line > c.last_line[i]) return null;
+    const size = norm(place.before_mm);
+    return Math.abs(size - at(c, 'before_mm', i)) <= 1e-5 * size ? place : null;
+  }
+
+  /** What is known better of a stretch of several waypoints: from the report's largest deviation, or its row. */
+  function ofMerged(run, i, row) {
+    const has = ['s_mm', 'place_mm', 'before_mm', 'after_mm'].filter((key) => row[key] !== undefined && row[key] !== null);
+    const own = Object.fromEntries(has.map((key) => [key, row[key]]));
+    const place = largestIn(run, i);
+    if (!place || (row.line && row.line !== place.line)) return own;
+    const causes = causesOf(place);
+    return {...own, line: place.line, last_line: place.line, s_mm: null, place_mm: place.place_mm, before_mm: norm(place.before_mm),
+      vectors: {before: {vector: place.before_mm}}, causes, sizes: sizesOf(causes), text: lineText(run, place.line)};
+  }
 
   /**
    * All values at one place, the end of a stretch: {line, last_line, s_mm, place_mm, before_mm, about: whether it is
-   * interpolated, after_mm, vectors: {before, after, correction}, each {vector, about} or null, causes: vectors, sizes,
-   * force_N, tool, operation, text}. `row`: of the worst blocks, if it was chosen there.
+   * interpolated, after_mm, merged: whether sizes are the largest of several waypoints, vectors: {before, after, correction},
+   * each {vector, about} or null, causes: vectors, sizes, force_N, tool, operation, text}. `row`: of the worst blocks, if it
+   * was chosen there.
    */
   function ofStretch(run, i, row = {}) {
     const c = run.curves;
     const operation = (run.report.operations || [])[c.operation[i]];
     const vectors = Object.fromEntries(['before', 'after', 'correction'].map((base) => [base, counterflex.vectors.at(c, base, i)]));
     const causes = vectors.before ? causesAt(c, i) : [];
-    const {before} = vectors;
+    const {before} = vectors, merged = c.waypoints_per_stretch > 1;
     return {
       line: row.line || c.first_line[i], last_line: row.line || c.last_line[i], s_mm: c.s_mm[i],
       place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
-      before_mm: before ? counterflex.vectors.norm(before.vector) : at(c, 'before_mm', i), about: Boolean(before && before.about),
+      before_mm: before ? norm(before.vector) : at(c, 'before_mm', i), merged, about: Boolean(before && before.about),
       after_mm: at(c, 'after_mm', i), vectors, causes, sizes: causes.length > 0 ? sizesOf(causes) : row.causes,
       force_N: at(c, 'force_N', i), tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '',
       text: row.text || lineText(run, c.first_line[i]),
+      ...(merged ? ofMerged(run, i, row) : {}),
     };
   }
 
@@ -48,11 +68,13 @@
 
   const lineText = (run, line) => (run.source && run.source.lines[line - 1]) || '';
 
-  function causeSentence({before_mm: before, about, after_mm: after, sizes}, units) {
+  /** The deviation at a place and its cause in a sentence. */
+  function sentence({before_mm: before, about, merged, after_mm: after, vectors, sizes}, units) {
     const cause = words.cause(sizes);
     if (!known(before)) return null;
-    const size = `Off by ${about ? 'about ' : ''}${units.format(before)} before${cause ? `: ${cause}` : ''}.`;
-    return el('p', {class: 'cause'}, size, known(after) ? ` After: ${units.format(after)}.` : '');
+    const most = about ? 'about ' : merged && !vectors.before ? 'up to ' : '';
+    const size = `Off by ${most}${units.format(before)} before${cause ? `: ${cause}` : ''}.`;
+    return el('p', {class: 'cause'}, size, known(after) ? ` After: ${merged ? 'up to ' : ''}${units.format(after)}.` : '');
   }
 
   function fact(name, value) {
@@ -76,17 +98,14 @@
         others, units);
   }
 
-  /** The deviation at a place in a sentence, and its causes as a sum of vectors. */
-  const causes = (place, units) => [causeSentence(place, units), vectorTable(place, units)];
-
   /** The card of a place: its line, and there the deviation, its causes as a sum of vectors, and the force. */
   function card(run, place, units) {
     const lines = place.last_line > place.line ? `Lines ${place.line} to ${place.last_line}` : `Line ${place.line}`;
     return el('div', {class: 'place-card', 'data-line': place.line},
         el('h3', null, words.ofRun(run, lines)),
         place.text ? el('pre', null, el('code', null, place.text)) : null,
-        causes(place, units), facts(place, units));
+        sentence(place, units), vectorTable(place, units), facts(place, units));
   }
 
-  counterflex.place = {card, causes, ofStretch, ofRow};
+  counterflex.place = {card, sentence, ofStretch, ofRow};
 })();

@@ -39,5 +39,17 @@
     return {vector: from.map((v, k) => v + t * (to[k] - v)), about: true};
   }
 
-  counterflex.vectors = {at, norm, sum};
+  /** The causes at a place of the report, [{key, name, vector}]. */
+  function causesOf(place) {
+    const {partName} = counterflex.words;
+    const listed = ['geometry', 'load', 'gravity', 'preloads'].filter((base) => place[`${base}_mm`])
+        .map((base) => ({key: `${base}_mm`, name: partName(`${base}_mm`), vector: place[`${base}_mm`]}));
+    const rest = place.before_mm.map((v, k) => v - place.superposition_mm[k]);
+    return [...listed, {key: 'discrepancy_mm', name: partName('discrepancy_mm'), vector: rest}];
+  }
+
+  /** Sizes of causes under the keys of a report's row. */
+  const sizesOf = (causes) => Object.fromEntries(causes.map(({key, vector}) => [key, norm(vector)]));
+
+  counterflex.vectors = {at, norm, sum, causesOf, sizesOf};
 })();
