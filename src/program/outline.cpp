@@ -98,6 +98,7 @@ void OutlineScan::add_krl(std::string_view lines) {
     lines.remove_prefix(list);
   }
   if (!lines.empty()) add_elements(lines, outline_.arrays);
+  outline_.named_targets = outline_.named_targets || !outline_.arrays.empty();
 }
 
 void OutlineScan::add_numbered(std::string_view lines) {

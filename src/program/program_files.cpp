@@ -40,15 +40,15 @@ int count_newlines(const std::string& path) {
   return count;
 }
 
-bool has_extension(const fs::path& path, std::string_view wanted) {
-  return is_word(path.extension().string(), wanted);
-}
-
 }  // namespace
+
+bool takes_data_lists(const std::string& program) {
+  return is_word(fs::path(program).extension().string(), ".SRC");
+}
 
 std::string data_list_beside(const std::string& program) {
   const fs::path path(program);
-  if (!has_extension(path, ".SRC")) return {};
+  if (!takes_data_lists(program)) return {};
   for (const char* extension : {".dat", ".DAT", ".Dat"}) {
     const fs::path list = fs::path(path).replace_extension(extension);
     std::error_code ignored;

@@ -11,6 +11,9 @@
 
 namespace counterflex {
 
+/// Whether a program with that name may have data lists: NAME.src.
+bool takes_data_lists(const std::string& program);
+
 /// The data list NAME.dat beside the program NAME.src, with any case of the extensions. Empty if there is
 /// none.
 std::string data_list_beside(const std::string& program);

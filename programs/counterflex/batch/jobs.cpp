@@ -176,6 +176,9 @@ class JobList {
 
 std::vector<std::string> files_written(const BatchJob& job) {
   std::vector<std::string> files{job.output};
+  const std::vector<std::string> read = files_of_program(job.program, job.options.data_lists);
+  for (std::size_t i = 1; i < read.size(); ++i)
+    if (!belongs_to_control(read[i])) files.push_back(corrected_list(read[i], job.program, job.output));
   if (job.options.report)
     for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*job.options.report + ending);
   if (job.options.plot) files.push_back(*job.options.plot);

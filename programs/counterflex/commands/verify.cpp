@@ -1,3 +1,4 @@
+#include <filesystem>
 #include <mutex>
 #include <utility>
 
@@ -62,11 +63,15 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
                         {read, begun, solved, done});
 }
 
-/// The data lists of the corrected program: files of the same names beside it.
+/// The data lists of the corrected program: files of the same names beside it, or those of the original that
+/// were not changed and so not written.
 std::vector<std::string> lists_beside_corrected(const Options& options) {
   std::vector<std::string> lists;
-  for (const std::string& list : options.data_lists)
-    lists.push_back(corrected_list(list, options.program, options.verify.corrected));
+  for (const std::string& list : options.data_lists) {
+    const std::string corrected = corrected_list(list, options.program, options.verify.corrected);
+    std::error_code ignored;
+    lists.push_back(std::filesystem::exists(corrected, ignored) ? corrected : list);
+  }
   return lists;
 }
 

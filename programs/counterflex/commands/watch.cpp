@@ -189,7 +189,7 @@ class Watch {
     if (!files_.is_from_start(path)) return false;
     try {
       const BatchJob job = job_for(options_, path);
-      if (!is_corrected_from(job.output, path)) return false;
+      if (!is_corrected_from(job.output, files_of_program(path, job.options.data_lists))) return false;
       claim_outputs(job);
       return true;
     } catch (const InputError&) {

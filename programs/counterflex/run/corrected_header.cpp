@@ -21,34 +21,48 @@ std::string beginning_of(const std::string& path) {
   return bytes;
 }
 
-/// The digits of the original's hash in the header of a corrected program, in lower case; empty if the file
-/// has no header.
-std::string program_digits(const std::string& path) {
+/// The digits of the hashes in the lines "COUNTERFLEX 1 KEY HASH" of a header, in lower case.
+std::vector<std::string> digits_of(const std::string& header, std::string_view key) {
   constexpr std::size_t count = 16;
-  constexpr std::string_view mark = "COUNTERFLEX 1 PROGRAM ";
-  const std::string bytes = beginning_of(path);
-  const std::size_t at = bytes.find(mark);
-  if (at == std::string::npos) return {};
-  std::string digits = bytes.substr(at + mark.size(), count);
-  if (digits.size() != count ||
-      !std::ranges::all_of(digits, [](unsigned char c) { return std::isxdigit(c) != 0; }))
-    return {};
-  for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
-  return digits;
+  const std::string mark = "COUNTERFLEX 1 " + std::string(key) + ' ';
+  std::vector<std::string> all;
+  for (std::size_t at = 0; (at = header.find(mark, at)) != std::string::npos;) {
+    at += mark.size();
+    std::string digits = header.substr(at, count);
+    if (digits.size() != count ||
+        !std::ranges::all_of(digits, [](unsigned char c) { return std::isxdigit(c) != 0; }))
+      continue;
+    for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
+    all.push_back(std::move(digits));
+  }
+  return all;
+}
+
+/// Of the original program; empty if the file has no header.
+std::vector<std::string> program_digits(const std::string& header) {
+  return digits_of(header, "PROGRAM");
 }
 
 }  // namespace
 
 bool has_corrected_header(const std::string& path) {
-  return !program_digits(path).empty();
+  return !program_digits(beginning_of(path)).empty();
 }
 
-bool is_corrected_from(const std::string& output, const std::string& program) {
-  const std::string digits = program_digits(output);
+bool is_corrected_from(const std::string& output, const std::vector<std::string>& files) {
+  const std::string header = beginning_of(output);
+  std::vector<std::string> digits = program_digits(header);
+  const std::vector<std::string> lists = digits_of(header, "DATA LIST");
   if (digits.empty()) return false;
+  digits.resize(1);
+  digits.insert(digits.end(), lists.begin(), lists.end());
+  if (digits.size() != files.size()) return false;
   try {
-    FileReader bytes(program);
-    return sha256(bytes).starts_with(digits);
+    for (std::size_t i = 0; i < files.size(); ++i) {
+      FileReader bytes(files[i]);
+      if (!sha256(bytes).starts_with(digits[i])) return false;
+    }
+    return true;
   } catch (const InputError&) {
     return false;
   }

@@ -75,6 +75,12 @@ std::vector<std::string> other_inputs_of_header(const std::string& text, const R
     if (!is_hash_of(hash, run.machine.file))
       warnings.push_back(
           warning("another machine file", hash, given(run.machine.file.path, run.machine.file)));
+  const auto& lists = run.file.data_lists;
+  for (const std::string& hash : hashes_of(text, "DATA LIST"))
+    if (std::ranges::none_of(lists, [&](const InputFile& file) { return is_hash_of(hash, file); }))
+      warnings.push_back(warning(
+          "another data list", hash,
+          lists.empty() ? "this run, which has no data list" : given(lists.front().path, lists.front())));
   const auto& forces = run.force_input.files;
   for (const std::string& hash : hashes_of(text, "FORCES"))
     if (std::ranges::none_of(forces, [&](const InputFile& file) { return is_hash_of(hash, file); }))

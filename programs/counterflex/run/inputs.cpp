@@ -164,6 +164,7 @@ void blame_dialect(const InputError& error, const Options& options, const Machin
 std::vector<std::string> files_of_program(const std::string& path,
                                           const std::vector<std::string>& data_lists) {
   std::vector<std::string> files{path};
+  if (!takes_data_lists(path)) return files;
   if (std::string own = data_list_beside(path); !own.empty()) files.push_back(std::move(own));
   for (const std::string& list : data_lists)
     if (std::none_of(files.begin(), files.end(), [&](const std::string& f) { return is_same_file(f, list); }))
@@ -175,6 +176,8 @@ ProgramFile open_program(const std::string& role, const std::string& path,
                          const std::vector<std::string>& data_lists, Console& console) {
   refuse_folder(path, ErrorKind::usage);
   const std::vector<std::string> files = files_of_program(path, data_lists);
+  if (!data_lists.empty() && !takes_data_lists(path))
+    console.warning(shown_name(path), 0, "data lists (--data) are read with KUKA programs (.src) only");
   ProgramFile program{{role, path, {}}, join_files(files)};
   if (files.size() == 1) return program;
   FileReader alone(path);

@@ -118,6 +118,10 @@ std::string corrected_list(const std::string& list, const std::string& program,
   return is_same_file(same_name.string(), list) ? default_output(list) : same_name.string();
 }
 
+bool belongs_to_control(const std::string& list) {
+  return fs::path(list).filename().string().starts_with('$');
+}
+
 std::string canonical_name(const std::string& path) {
   std::error_code ignored;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
@@ -192,7 +196,8 @@ OwnFile page_file(const std::string& path) {
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
   if (options.force_overwrite) return;
   for (const OutputPaths::List& list : paths.lists)  // it has no header of its own
-    refuse_foreign({{list.path, [&](const std::string&) { return has_corrected_header(paths.program); }}});
+    if (!belongs_to_control(list.input))
+      refuse_foreign({{list.path, [&](const std::string&) { return has_corrected_header(paths.program); }}});
   refuse_foreign({{paths.program, has_corrected_header},
                   marked_file(paths.report_json, "\"counterflex"),
                   marked_file(paths.report_csv, "index,line,cutting,s_mm"),
@@ -282,8 +287,15 @@ std::vector<FileWriter*> RunFiles::written_lists() {
   std::vector<FileWriter*> lists;
   for (std::size_t i = 0; i < lists_.size(); ++i) {
     lists_[i].complete();
-    FileReader input(paths_.lists[i].input);
-    if (paths_.lists[i].always || lists_[i].sha256() != sha256(input)) lists.push_back(&lists_[i]);
+    const OutputPaths::List& list = paths_.lists[i];
+    FileReader input(list.input);
+    const bool changed = lists_[i].sha256() != sha256(input);
+    if (changed && belongs_to_control(list.input))
+      throw InputError(
+          ErrorKind::program_text, {list.input},
+          "a target in this list is corrected, but all programs of the control use the list; copy "
+          "the target into the data list of the program");
+    if (changed || list.always) lists.push_back(&lists_[i]);
   }
   return lists;
 }

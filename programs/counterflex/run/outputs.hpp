@@ -43,6 +43,9 @@ OutputPaths output_paths(const Options& options);
 /// NAME.comp.dat if that is the list itself. The list beside the program gets the stem of the corrected one.
 std::string corrected_list(const std::string& list, const std::string& program, const std::string& corrected);
 
+/// Whether a data list has a name of the control, such as $config.dat: all programs use it.
+bool belongs_to_control(const std::string& list);
+
 /// One name for all paths of a file, which may not exist.
 std::string canonical_name(const std::string& path);
 
@@ -98,7 +101,8 @@ class RunFiles {
   const std::vector<FileHash>& published() const { return published_; }
 
  private:
-  /// The data lists that have changed, and the one beside the program.
+  /// The data lists that have changed, and the one beside the program. Throws `InputError`
+  /// (ErrorKind::program_text) if a list of the control has changed.
   std::vector<FileWriter*> written_lists();
 
   OutputPaths paths_;

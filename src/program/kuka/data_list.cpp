@@ -30,6 +30,18 @@ RobotLine line_of(std::string_view text, const KrlNamed& element) {
   return line;
 }
 
+/// The element of an array in a data list. Refuses an element whose value is not in braces.
+const KrlNamed& element_of(const KrlReading& r, const KrlLoop& loop, long index) {
+  const std::string name = fmt::format("{}[{}]", loop.array, index);
+  const auto found = r.named.find(name);
+  if (found != r.named.end() && !found->second.computed_in) return found->second;
+  refuse(r.robot.program.file, loop.motion, loop.motion.code.begin,
+         fmt::format(
+             "the data list does not give '{}' of this loop as a target of plain numbers: {} = {{X 1, Y 2, "
+             "Z 3, A 0, B 0, C 0}}",
+             name, name));
+}
+
 /// The move of a loop to one element. In the order of the text it is at the statement of the loop.
 void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& element, bool passes) {
   const std::string_view text = r.robot.program.text;
@@ -111,8 +123,8 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   if (in_body(r) || !r.why_not_followed.empty()) return false;
   const auto loop = loop_over_array(text, r.robot.program.file, line);
   if (!loop) return false;
-  const auto name_of = [&](long index) { return fmt::format("{}[{}]", loop->array, index); };
-  if (r.named.contains(name_of(loop->first)) && !r.data_lists) return false;
+  // An array that the program itself assigns: its loop is not followed.
+  if (!r.data_lists && r.named.contains(fmt::format("{}[{}]", loop->array, loop->first))) return false;
   refuse_incomplete(r, *loop);
   r.loops.push_back(*loop);
   r.behind_loop = loop->end;
@@ -120,7 +132,7 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
   const bool passes = passes_target(part(text, loop->motion.code));
   for (long index = loop->first; index <= loop->last; ++index)
-    add_element_move(r, *loop, r.named.find(name_of(index))->second, passes);
+    add_element_move(r, *loop, element_of(r, *loop, index), passes);
   return true;
 }
 

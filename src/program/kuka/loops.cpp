@@ -211,6 +211,7 @@ bool may_move(std::string_view text, std::string_view routine) {
   RobotLine line;
   bool inside = false;
   while (next_robot_line(text, krl_comment, line)) {
+    if (part(text, line.span).starts_with(file_mark)) return true;
     if (empty(line.code)) continue;
     const std::string head = head_of(text, line);
     if (inside && (begins_routine(text, line) || head == "END" || head == "ENDFCT")) return false;

@@ -57,7 +57,7 @@ using KrlArrays = std::map<std::string, KrlArray, std::less<>>;
 void add_elements(std::string_view lines, KrlArrays& arrays);
 
 /// Whether the routine with that name moves the robot, or may do so; false if `text` has a routine of that
-/// name without any motion.
+/// name without any motion before its data lists.
 bool may_move(std::string_view text, std::string_view routine);
 
 /// The text of a program after points were inserted: the indices of arrays with loops count on, and the sizes

@@ -8,6 +8,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/program/program_reader.hpp"
+#include "program/robot/corpus.hpp"
 #include "program/robot/edits.hpp"
 
 using namespace counterflex;
@@ -327,29 +328,9 @@ TEST_CASE("a long APT program is written the same in windows and as a whole") {
 }
 
 TEST_CASE("each APT program of a folder of real programs is reproduced or refused with its line") {
-  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
-  if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
-    return;
-  }
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || !name.starts_with("apt_")) continue;
-    CAPTURE(name);
-    const std::string text = read_file(entry.path().string());
-    for (const std::optional<LengthUnit> unit :
-         {std::optional<LengthUnit>(), std::optional(LengthUnit::millimetres)})
-      try {
-        const Program program = read_program(text, name, {.unit = unit});
-        CHECK(!program.moves.empty());
-        CHECK(unchanged(program) == text);
-        MESSAGE(name << ": " << program.moves.size() << " moves, " << program.left_alone.size()
-                     << " left alone");
-      } catch (const InputError& error) {
-        MESSAGE(std::string(error.what()));
-        CHECK(!unit);
-        CHECK(error.where().line > 0);
-        CHECK(error.where().column > 0);
-      }
-  }
+  for (const std::optional<LengthUnit> unit :
+       {std::optional<LengthUnit>(), std::optional(LengthUnit::millimetres)})
+    check_corpus(
+        [](const std::filesystem::path& path) { return path.filename().string().starts_with("apt_"); },
+        text_of_file, {.unit = unit});
 }

@@ -10,6 +10,7 @@
 #include "counterflex/program/program_files.hpp"
 #include "counterflex/program/program_reader.hpp"
 #include "program/reading.hpp"
+#include "program/robot/corpus.hpp"
 #include "program/robot/edits.hpp"
 
 using namespace counterflex;
@@ -125,6 +126,8 @@ TEST_CASE("a loop that cannot be followed is refused or not corrected") {
   CHECK(refusal_of(replaced(loop_program, "TO 3", "TO 4"), loop_list)
             .find("are not all in the data list: it has 1 to 3") != std::string::npos);
   CHECK(refusal_of(loop_program, "DEFDAT job\nENDDAT\n").find("--data FILE.dat") != std::string::npos);
+  CHECK(refusal_of(loop_program, replaced(loop_list, "={at {X 10,Y 0,Z 5,A 0,B 0,C 180},f 0.1}", "=OTHER"))
+            .find("does not give 'POINTS[2]' of this loop as a target") != std::string::npos);
   CHECK(refusal_of(loop_program, replaced(loop_list, "X 10,Y 0", "X n,Y 0"))
             .find("is not a target of plain numbers") != std::string::npos);
 }
@@ -174,6 +177,18 @@ TEST_CASE("a target in no list is refused with its cure") {
   CHECK(refusal_of("DEF job()\nLIN XP9\nEND\n", loop_list).find("--data FILE.dat") != std::string::npos);
 }
 
+TEST_CASE("a program with a list that is longer than what is read at once is one window") {
+  std::string list = "DEFDAT job\nDECL target POINTS[8000]\n";
+  for (int i = 1; i <= 8000; ++i)
+    list +=
+        "POINTS[" + std::to_string(i) + "]={at {X " + std::to_string(i) + ",Y 0,Z 5,A 0,B 0,C 180},f 0.1}\n";
+  FileReader bytes = FileReader::of_bytes(joined(replaced(loop_program, "TO 3", "TO 8000"), list));
+  ProgramReader reader(bytes, "job.src", {});
+  REQUIRE(reader.next());
+  CHECK(reader.window().moves.size() == 8000);
+  CHECK(!reader.next());
+}
+
 TEST_CASE("joined files are divided into the same bytes") {
   for (const std::string first : {"a\nb", "a\nb\n", "", "a\r\n"})
     for (const std::string second : {"c", "c\n", "\n", "d\r\n"}) {
@@ -211,27 +226,9 @@ std::string with_lists(const std::filesystem::path& program) {
 }  // namespace
 
 TEST_CASE("each KUKA program of a folder of real programs is reproduced or refused with its line") {
-  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
-  if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
-    return;
-  }
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || !name.starts_with("kuka_") || entry.path().extension() != ".src")
-      continue;
-    CAPTURE(name);
-    const std::string text = with_lists(entry.path());
-    try {
-      const Program program = read_program(text, name, {});
-      CHECK(!program.moves.empty());
-      CHECK(unchanged(program) == text);
-      MESSAGE(name << ": " << program.moves.size() << " moves, " << program.left_alone.size()
-                   << " left alone");
-    } catch (const InputError& error) {
-      MESSAGE(std::string(error.what()));
-      CHECK(error.where().line > 0);
-      CHECK(error.where().column > 0);
-    }
-  }
+  check_corpus(
+      [](const std::filesystem::path& path) {
+        return path.filename().string().starts_with("kuka_") && path.extension() == ".src";
+      },
+      with_lists);
 }

@@ -8,6 +8,7 @@
 #include "counterflex/files/files.hpp"
 #include "program/outline.hpp"
 #include "program/rapid/rapid.hpp"
+#include "program/robot/corpus.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -170,28 +171,7 @@ TEST_CASE("windows of an ABB program have the moves of the whole") {
   CHECK(windows > 2);
 }
 
-TEST_CASE("every program of a folder of real programs: ABB programs are reproduced or refused with line") {
-  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
-  if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
-    return;
-  }
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || !name.starts_with("abb_")) continue;
-    CAPTURE(name);
-    const std::string text = read_file(entry.path().string());
-    try {
-      const Program program = read_program(text, name, {});
-      CHECK(!program.moves.empty());
-      CHECK(rewrite(program, unchanged_edits(program), {}).text == text);
-      const auto followed = std::ranges::count_if(program.moves, [](const Move& m) { return !m.fixed[0]; });
-      MESSAGE(name << ": " << program.moves.size() << " moves, " << followed << " followed, "
-                   << program.left_alone.size() << " left alone");
-    } catch (const InputError& error) {
-      MESSAGE(std::string(error.what()));
-      CHECK(error.where().line > 0);
-      CHECK(error.where().column > 0);
-    }
-  }
+TEST_CASE("each ABB program of a folder of real programs is reproduced or refused with its line") {
+  check_corpus([](const std::filesystem::path& path) { return path.filename().string().starts_with("abb_"); },
+               text_of_file);
 }

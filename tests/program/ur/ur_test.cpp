@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
+#include "program/robot/corpus.hpp"
 #include "program/robot/edits.hpp"
 
 using namespace counterflex;
@@ -456,26 +457,5 @@ TEST_CASE("what URScript shifts at run time, and text that is not a program, is 
 }
 
 TEST_CASE("each URScript program of a folder of real programs is reproduced or refused with its line") {
-  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
-  if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
-    return;
-  }
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || !name.ends_with(".script")) continue;
-    CAPTURE(name);
-    const std::string text = read_file(entry.path().string());
-    try {
-      const Program program = read_program(text, name, {});
-      CHECK(!program.moves.empty());
-      CHECK(unchanged(program) == text);
-      MESSAGE(name << ": " << program.moves.size() << " moves, " << program.left_alone.size()
-                   << " left alone");
-    } catch (const InputError& error) {
-      MESSAGE(std::string(error.what()));
-      CHECK(error.where().line > 0);
-      CHECK(error.where().column > 0);
-    }
-  }
+  check_corpus([](const std::filesystem::path& path) { return path.extension() == ".script"; }, text_of_file);
 }
