@@ -17,9 +17,11 @@ std::string with_sign(double length, std::string_view what, bool first) {
   return fmt::format("{}{} {:.7g}", first ? "" : " + ", what, shown);
 }
 
-/// What the value of a linear axis consists of; empty where it is not the sum of offset, program and tool.
+/// What the value of a linear axis consists of; empty where it is not the sum of offset, program and tool,
+/// and where the control shows another value.
 std::string parts_of(const Travel& axis, const CommandedPlace& at, double value, double home) {
   const std::size_t c = std::string_view("XYZ").find(axis.name.back());
+  if (at.model.mechanism.shown.differ()) return "";
   if (!axis.name.starts_with("axis ") || axis.name.size() != 6 || c > 2) return "";
   const auto i = static_cast<Eigen::Index>(c);
   const Mechanism& mechanism = at.model.mechanism;

@@ -13,6 +13,11 @@ namespace {
 constexpr double parallel = 1 - 1e-9;    // cosine
 constexpr std::size_t least_of_arm = 4;  // rotary actuators in series
 
+const Actuator* numbered(const Element& element) {
+  const auto* actuator = std::get_if<Actuator>(&element);
+  return actuator != nullptr && actuator->program_axis == 0 ? actuator : nullptr;
+}
+
 /// The letter of an actuator whose axis is parallel to a machine axis, with the orientation `R` of the frame
 /// before it; 0 for any other.
 char letter_of(const Joint& joint, const Matrix3& R) {
@@ -34,7 +39,7 @@ std::string letters_of(const Chain& chain) {
     if (const auto* passive = std::get_if<Passive>(&element)) turn(passive->joint, passive->home);
     const auto* actuator = std::get_if<Actuator>(&element);
     if (actuator == nullptr) continue;
-    letters.push_back(letter_of(actuator->joint, R));
+    if (actuator->program_axis == 0) letters.push_back(letter_of(actuator->joint, R));
     turn(actuator->joint, actuator->home);
   }
   return letters;
@@ -46,7 +51,7 @@ std::vector<std::string> names_in_series(const Chain& chain) {
   std::vector<std::string> names;
   std::vector<bool> rotary;
   for (const Element& element : chain.elements)
-    if (const auto* actuator = std::get_if<Actuator>(&element))
+    if (const Actuator* actuator = numbered(element))
       rotary.push_back(actuator->joint.kind == JointKind::revolute);
   const bool arm = static_cast<std::size_t>(std::count(rotary.begin(), rotary.end(), true)) >= least_of_arm;
   int turning = 0;
@@ -62,8 +67,7 @@ std::vector<std::string> names_in_series(const Chain& chain) {
 
 std::size_t count_actuators(const Chain& chain) {
   std::size_t count = 0;
-  for_each_element(chain.elements,
-                   [&](const Element& element) { count += std::holds_alternative<Actuator>(element); });
+  for_each_element(chain.elements, [&](const Element& element) { count += numbered(element) != nullptr; });
   return count;
 }
 

@@ -1,5 +1,7 @@
 #include "counterflex/machine/machine.hpp"
 
+#include <algorithm>
+
 #include "machine/walk.hpp"
 
 namespace counterflex {
@@ -15,7 +17,8 @@ void make_perfect(std::vector<Element>& elements) {
 
 void collect(const std::vector<Element>& elements, std::vector<Actuator>& found) {
   for (const Element& element : elements) {
-    if (const auto* actuator = std::get_if<Actuator>(&element)) found.push_back(*actuator);
+    const auto* actuator = std::get_if<Actuator>(&element);
+    if (actuator != nullptr && actuator->program_axis == 0) found.push_back(*actuator);
     if (const auto* group = std::get_if<Group>(&element))
       for (const Branch& branch : group->branches) collect(branch.elements, found);
   }

@@ -58,6 +58,7 @@ void add_window(Overview& overview, const Program& window) {
   overview.frames_used.resize(window.frames.size());
   overview.remarks = window.remarks;
   overview.external_axes_move = window.external_axes_move;
+  overview.external_axes = window.external_axes;
   overview.path_tolerances = window.path_tolerances;
   add_text(overview, window.text);
   for (const Move& move : window.moves) add_move(overview, move);

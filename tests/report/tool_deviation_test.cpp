@@ -6,6 +6,7 @@
 #include <random>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/report/formats.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"

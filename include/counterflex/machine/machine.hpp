@@ -76,13 +76,28 @@ struct AssemblyError {
   Pose X;
 };
 
+/// How the control shows the value of an actuator: shown = sign value + zero + the sum of the coupled shown
+/// values, each times its factor.
+struct ShownValue {
+  struct Coupling {
+    std::size_t actuator = 0;  ///< index of an earlier actuator
+    double factor = 0;
+  };
+  double sign = 1;
+  double zero = 0;  ///< m or rad
+  std::vector<Coupling> coupled{};
+};
+
 /// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
-/// group's branches in order, at the place of the group).
+/// group's branches in order, at the place of the group). An actuator with a `program_axis` has no number:
+/// the program gives its value, which is constant along a program, and it is a fixed transform at `home`.
 struct Actuator {
   Joint joint;
-  double min = -std::numeric_limits<double>::infinity();
+  double min = -std::numeric_limits<double>::infinity();  ///< travel, of the shown value
   double max = std::numeric_limits<double>::infinity();
-  double home = 0;  ///< where inverse kinematics starts
+  double home = 0;       ///< where inverse kinematics starts; of the joint, not the shown value
+  int program_axis = 0;  ///< 1 to 6: the external axis E1 to E6 of the program; 0: none
+  ShownValue shown{};
 };
 
 /// A joint that moves freely, or against `stiffness` (N/m or N m/rad) with energy 1/2 k (q - rest)^2.
@@ -179,6 +194,13 @@ struct ControlSettings {
   bool absolute_centres = false;                              ///< of arcs, until a program changes it
 };
 
+/// The link lengths with which the control computes the joint values of a target.
+enum class ControlKinematics {
+  unstated,
+  catalogue,  ///< the nominal lengths
+  factory,    ///< lengths that the maker calibrated: the file's errors are what these leave
+};
+
 /// What pulls at masses, and when the controller's zero was set.
 struct Gravity {
   Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
@@ -199,6 +221,7 @@ struct Machine {
   std::optional<Pose> X_PS;    ///< gauge line that tools' lengths count from, z from tip to spindle
   std::map<long, Tool> tools;  ///< by number
   ControlSettings control;
+  ControlKinematics kinematics = ControlKinematics::unstated;
   Gravity gravity;
   double max_correction = 1e-3;  ///< m
   /// Reference point in the frame where the chains end: not zero for a machine with a tool that bends (m).
@@ -216,7 +239,7 @@ double total_mass(const Machine& machine);
 
 /// Whether weights act on it: there are masses, and something pulls at them.
 bool weighs(const Machine& machine);
-/// All actuators in their order.
+/// All numbered actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);
 
 /// Names of the actuators for messages, in the same order. On a machine of one chain: "axis X" for the only

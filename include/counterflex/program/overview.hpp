@@ -1,5 +1,6 @@
 #pragma once
 /// Summary of a whole program, gathered window by window. Its size does not grow with the program.
+#include <array>
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -32,8 +33,9 @@ struct Overview {
   std::optional<int> first_feed_without_tool;  ///< line of the first feed move whose tool number is unknown
   std::optional<int> first_cycle_line;         ///< line of the first hole of a cycle
   std::optional<Remark> external_axes_move{};  ///< as in Program
-  bool turns_tool = false;                     ///< whether moves give the tool's orientation
-  bool commented_force = false;                ///< whether a move is under a FORCE comment that is not zero
+  std::array<std::optional<ExternalAxis>, 6> external_axes{};  ///< as in Program
+  bool turns_tool = false;                                     ///< whether moves give the tool's orientation
+  bool commented_force = false;  ///< whether a move is under a FORCE comment that is not zero
 };
 
 /// Adds the next window of a program: whole lines, with line numbers of the file. `block_count`, `frames`,

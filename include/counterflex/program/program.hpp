@@ -365,6 +365,12 @@ inline bool is_set(const ProgramFrame& frame) {
 /// The pose of `frame` in the coordinates of its work offset (mm).
 Pose in_offset(const ProgramFrame& frame);
 
+/// Value of an external axis of a robot program, in mm or deg.
+struct ExternalAxis {
+  double value = 0;
+  int line = 0;
+};
+
 /// A program, or a window of one. In a window, `text` is some lines of the program, and `moves`, `left_alone`
 /// and `counts` belong to these lines. The other members describe the program from its first line to the end
 /// of the window.
@@ -390,11 +396,11 @@ struct Program {
   std::vector<Span> counts;
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;  ///< each different one once
-  /// The first target of a robot program whose external axes differ from those of the first target: a machine
-  /// file has no such axes, so the place of the robot is not known there.
+  /// The first target of a robot program whose external axes differ from those of the first target.
   std::optional<Remark> external_axes_move{};
-  std::size_t block_count = 0;  ///< lines with at least one word
-  std::size_t evaluated = 0;    ///< number of words that were variables or expressions and were evaluated
+  std::array<std::optional<ExternalAxis>, 6> external_axes{};  ///< E1 to E6 at the first target that has them
+  std::size_t block_count = 0;                                 ///< lines with at least one word
+  std::size_t evaluated = 0;  ///< number of words that were variables or expressions and were evaluated
   Expansion expansion{};
 };
 

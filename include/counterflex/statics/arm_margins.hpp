@@ -1,5 +1,6 @@
 #pragma once
 /// How far a six-axis arm is from the poses at which its configuration changes.
+#include <array>
 #include <optional>
 #include <string>
 
@@ -13,10 +14,13 @@ struct ArmMargin {
   const char* what = "";  ///< "wrist: axes A4 and A6 are in line"
 };
 
-/// The least of three: the wrist (axes 4 and 6 in line), the elbow (the wrist centre in line with axes 2 and
+/// Three margins: the wrist (axes 4 and 6 in line), the elbow (the wrist centre in line with axes 2 and
 /// 3, the arm stretched or folded) and the shoulder (the wrist centre on axis 1). None for a machine that is
 /// not one chain of six rotary actuators of which the last three meet in a point, and none where it is
 /// `singular`. `nominal`: a nominal configuration.
+std::optional<std::array<ArmMargin, 3>> arm_margins(const Model& model, const Configuration& nominal);
+
+/// The least of them.
 std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal);
 
 }  // namespace counterflex

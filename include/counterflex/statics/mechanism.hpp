@@ -8,6 +8,7 @@
 #include <vector>
 
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/shown.hpp"
 
 namespace counterflex {
 
@@ -53,6 +54,7 @@ struct Series {
   bool leans = false;         ///< a branch with masses whose start frame turns: where down is, changes for it
 };
 
+/// In values that the control shows, see `Mechanism::shown`.
 struct Travel {
   double min, max;
   JointKind kind;
@@ -64,6 +66,7 @@ struct Mechanism {
   std::vector<Series> chains;
   std::vector<Component> controlled;
   std::vector<Travel> travel;  ///< by actuator
+  ShownActuators shown;        ///< of the actuator values
   Pose X_PT;
   /// Reference point in the frame where the chains end: not zero with a tool that bends.
   Vector3 p_EP = Vector3::Zero();
@@ -125,8 +128,8 @@ struct Stage {
 };
 inline constexpr Stage nominal_stage{0, 0, 0, 0};
 
-/// An actuator that has a limit: its value, how far the nearer limit is (m or rad; negative: outside), and
-/// that as a share of the travel (of 1 m or 1 rad where there is one limit only).
+/// An actuator that has a limit: its shown value, how far the nearer limit is (m or rad; negative: outside),
+/// and that as a share of the travel (of 1 m or 1 rad where there is one limit only).
 struct AxisPlace {
   std::size_t actuator = 0;
   double value = 0, margin = 0, share = 0;
@@ -139,7 +142,7 @@ std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::
 /// How far two sets of actuator values are apart (m, rad); full turns of a rotary one count as nothing.
 double actuator_distance(const Mechanism& mechanism, const Eigen::VectorXd& a, const Eigen::VectorXd& b);
 
-/// "138.0 mm", "-12.5 deg": the value of an actuator.
+/// "138.0 mm", "-12.5 deg": the shown value of an actuator.
 std::string axis_value(const Travel& travel, double value);
 
 /// "-300 to 0 mm", "from -10 deg": the travel of an actuator.

@@ -74,8 +74,9 @@ NominalResult nominal_forward(const Model& model, const Configuration& from, con
 /// Pose of the tip of a configuration.
 Pose tip(const Mechanism& mechanism, const Configuration& configuration);
 
-/// Whether every actuator is in its range.
+/// Whether every actuator is in its range. `rho` has the values of all actuators.
 bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho);
+bool within_travel(const Mechanism& mechanism, const double* rho);
 
 /// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and
 /// its condition (lengths in units of l; infinite where a zero mode of the closures moves the platform).

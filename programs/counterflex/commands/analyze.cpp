@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
+#include "commands/kinematics.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/report/analysis.hpp"
@@ -136,6 +137,7 @@ void write_curve(const AnalysisReport& report, const Options& options) {
 }  // namespace
 
 std::optional<ErrorKind> run_analyze(const Options& options, Console& console) {
+  const bool kinematics = asks_for_kinematics(options);
   check_values(options);
   const MachineInput input = read_machine_input(options);
   const Load load{options.analyze.force.value_or(Vector6::Zero()), false};
@@ -143,10 +145,13 @@ std::optional<ErrorKind> run_analyze(const Options& options, Console& console) {
   const auto* tool = options.analyze.tool ? &tool_named(*options.analyze.tool, input.machine) : nullptr;
   const Model with_tool = tool ? prepare_with_tool(input.machine, input.model, tool->second) : Model{};
   const Model& model = tool ? with_tool : input.model;
+  const std::string tool_text =
+      tool ? fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second)) : "";
+  if (kinematics) return run_kinematics(options, model, tool_text, console);
   const std::vector<Pose> wanted = wanted_poses(options, model);
   AnalysisReport report =
       analyze(model, wanted, load, options.method, version, extras_of(options, input.model, model));
-  if (tool) report.tool = fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second));
+  report.tool = tool_text;
   write_result(options.json ? to_json(report) : to_text(report));
   write_curve(report, options);
   const auto error = judge(report, wanted, options, console), extras = judge_extras(report, options, console);

@@ -16,7 +16,7 @@ namespace {
 
 /// A machine at its home.
 struct HomeFacts {
-  Eigen::VectorXd rho;
+  Eigen::VectorXd shown;  ///< values of the actuators
   Pose X_MT;
   double actuator_condition = 0;          ///< 0: no actuators
   Status status = Status::not_converged;  ///< of the machine at home without load
@@ -58,9 +58,9 @@ int spring_directions(const Model& model, std::size_t chain, StaticsWork& work) 
 HomeFacts look_at_home(const Model& model) {
   HomeFacts home;
   StaticsWork work(model.mechanism);
-  home.rho = actuator_values(model.mechanism, model.home);
+  home.shown = shown_values(model.mechanism.shown, actuator_values(model.mechanism, model.home));
   home.X_MT = tip(model.mechanism, model.home);
-  if (home.rho.size() > 0) home.actuator_condition = actuator_jacobian(model, model.home).condition;
+  if (home.shown.size() > 0) home.actuator_condition = actuator_jacobian(model, model.home).condition;
   for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i)
     home.spring_directions.push_back(spring_directions(model, i, work));
   const Equilibrium actual = solve_forward(model, model.home, Load{}, Stage{}, work);
@@ -88,10 +88,10 @@ std::vector<std::string> notes_of(const Machine& machine, const Model& model, co
     if (home.spring_directions[i] < 6)
       notes.push_back(fmt::format("chain {}: its springs span {} of the six directions of its end at home",
                                   model.mechanism.chains[i].name, home.spring_directions[i]));
-  for (Eigen::Index i = 0; i < home.rho.size(); ++i) {
+  for (Eigen::Index i = 0; i < home.shown.size(); ++i) {
     const Travel& travel = model.mechanism.travel[static_cast<std::size_t>(i)];
-    if (home.rho[i] >= travel.min && home.rho[i] <= travel.max) continue;
-    const Value value = in_unit(home.rho[i], travel.kind);
+    if (home.shown[i] >= travel.min && home.shown[i] <= travel.max) continue;
+    const Value value = in_unit(home.shown[i], travel.kind);
     notes.push_back(
         fmt::format("actuator {} is outside its travel at home: {:.6g} {}", i + 1, value.number, value.unit));
   }
@@ -120,11 +120,11 @@ std::string home_text(const Machine& machine, const Model& model, const HomeFact
                        ? fmt::format("met within {:.1g} (m and rad)", model.home_gap)
                        : "none");
   line("tip", position_text(home.X_MT.p));
-  for (Eigen::Index i = 0; i < home.rho.size(); ++i) {
-    const Value value = in_unit(home.rho[i], model.mechanism.travel[static_cast<std::size_t>(i)].kind);
+  for (Eigen::Index i = 0; i < home.shown.size(); ++i) {
+    const Value value = in_unit(home.shown[i], model.mechanism.travel[static_cast<std::size_t>(i)].kind);
     line(fmt::format("actuator {}", i + 1), fmt::format("{:.6g} {}", value.number, value.unit));
   }
-  if (home.rho.size() > 0)
+  if (home.shown.size() > 0)
     line("condition", fmt::format("{:.3g} from actuators to tip", home.actuator_condition));
   if (home.status != Status::converged) return text;
   line("", fmt::format("{:.3g} of the static system", home.static_condition));
@@ -143,9 +143,9 @@ nlohmann::ordered_json limit_json(double value, JointKind kind) {
 
 nlohmann::ordered_json actuators_json(const Model& model, const HomeFacts& home) {
   nlohmann::ordered_json list = nlohmann::ordered_json::array();
-  for (Eigen::Index i = 0; i < home.rho.size(); ++i) {
+  for (Eigen::Index i = 0; i < home.shown.size(); ++i) {
     const Travel& travel = model.mechanism.travel[static_cast<std::size_t>(i)];
-    const Value value = in_unit(home.rho[i], travel.kind);
+    const Value value = in_unit(home.shown[i], travel.kind);
     list.push_back({{"unit", value.unit},
                     {"home", value.number},
                     {"min", limit_json(travel.min, travel.kind)},

@@ -9,6 +9,7 @@
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/sanity/checks.hpp"
+#include "run/program_axes.hpp"
 #include "run/sanity.hpp"
 #include "run/work.hpp"
 
@@ -194,8 +195,10 @@ std::optional<Failure> first_unreached(const Model& base, const ToolModels& tool
   return std::nullopt;
 }
 
-void check_reach(const Overview& program, ProgramReader reader, const MachineInput& input,
+void check_reach(const Overview& program, ProgramReader reader, MachineInput input,
                  const ToolLengths& lengths, Checked& checked, Console& console) {
+  for (const Remark& warning : place_program_axes(program, input))
+    console.warning(program.file, warning.line, warning.what);
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
   const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);

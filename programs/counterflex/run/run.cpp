@@ -16,6 +16,7 @@
 #include "run/facts.hpp"
 #include "run/failed_line.hpp"
 #include "run/header.hpp"
+#include "run/program_axes.hpp"
 #include "run/reading.hpp"
 #include "run/sanity.hpp"
 
@@ -42,10 +43,8 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
   return axes;
 }
 
-/// A program that turns the tool needs a machine that can, and a robot that stays in its place.
+/// A program that turns the tool needs a machine that can.
 void refuse_orientation(const Run& run) {
-  if (const auto& moved = run.program.external_axes_move)
-    throw InputError(ErrorKind::program_text, {run.program.file, moved->line, 1}, moved->what);
   if (!run.program.turns_tool || controls_pose(run.machine.machine)) return;
   throw InputError(
       ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
@@ -211,6 +210,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   });
   run->program = std::move(scan.program);
   run->is_corrected = scan.is_corrected;
+  const std::vector<Remark> axis_warnings = place_program_axes(run->program, run->machine);
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   forces.refuse_unread();
   run->starts.emplace();
@@ -224,6 +224,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);
+  run->facts.warnings = axis_warnings;
   warn_of_datum(*run);
   warn_of_orientation(*run);
   warn_of_tools(*run);

@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/sanity/checks.hpp"
+#include "run/program_axes.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -98,6 +99,7 @@ SanityChecks program_sanity(const PlacedProgram& placed) {
                       check_tool_lengths(placed.lengths.mm, placed.program.tools, machine.X_PS.has_value()),
                       check_work_offset(selected_offsets(placed.program),
                                         !machine.work.empty() || machine.work_is_machine_frame)};
+  append(checks, check_program_axes(placed.program, machine));
   append(checks, check_magnitudes(machine));
   return checks;
 }

@@ -157,14 +157,27 @@ void add_analyze(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "analyze", Command::analyze,
                                   "Stiffness, assembly, joint loads, deviation and corrected target at poses",
                                   "  counterflex analyze -m machine.toml --at 0,0,-100 --force 0,0,-200\n"
-                                  "  counterflex analyze -m machine.toml --at 0,0,-100 --full");
+                                  "  counterflex analyze -m machine.toml --at 0,0,-100 --full\n"
+                                  "  counterflex analyze -m robot.toml --joints 0,-90,90,0,45,0");
   add_setting(command, options, "machine");
   command
       .add_option("--at", options.analyze.at,
                   "A pose of the tip: mm, and roll, pitch, yaw in degrees; may be repeated")
       ->type_name("X,Y,Z[,R,P,Y]")
-      ->allow_extra_args(false)
-      ->required();
+      ->allow_extra_args(false);
+  command
+      .add_option("--joints", options.analyze.joints,
+                  "Instead of --at: actuator values as the control shows them, mm or degrees; prints the tip")
+      ->type_name("J1,J2,...")
+      ->allow_extra_args(false);
+  command
+      .add_option("--pose", options.analyze.poses,
+                  "Instead of --at: a pose of the tip as the control shows it; prints the actuator values")
+      ->type_name("X,Y,Z,A,B,C")
+      ->allow_extra_args(false);
+  value_option(command, "--as", "kuka|fanuc|abb|ur",
+               "How --pose is written (default: fanuc): A B C, W P R, q1 to q4 or a rotation vector in rad",
+               [&](const std::string& text) { options.analyze.as = text; });
   value_option(command, "--tool", "T3",
                "The tool of the machine file in the spindle (default: [tool], rigid)",
                [&](const std::string& text) { options.analyze.tool = text; });

@@ -47,6 +47,9 @@ struct ForcesOptions {
 
 struct AnalyzeOptions {
   std::vector<std::string> at;       ///< "X,Y,Z[,R,P,Y]"
+  std::vector<std::string> joints;   ///< "J1,J2,...": shown values, mm or deg
+  std::vector<std::string> poses;    ///< "X,Y,Z,A,B,C": in the numbers of `as`
+  std::optional<std::string> as;     ///< "kuka", "fanuc", "abb" or "ur"
   std::optional<std::string> tool;   ///< "T3"
   std::optional<Vector6> force;      ///< N, N m
   bool full = false;                 ///< details of every chain

@@ -5,9 +5,11 @@
 
 #include <algorithm>
 #include <charconv>
+#include <cmath>
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
+#include "counterflex/geometry/turn.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
 
@@ -72,23 +74,55 @@ int integer_of(std::string_view name, std::string_view text, int least, int most
                    fmt::format("{} is '{}', must be a whole number from {} to {}", name, text, least, most));
 }
 
+std::vector<double> numbers_of(std::string_view name, std::string_view text) {
+  std::vector<double> values;
+  for (const std::string_view part : split(text)) {
+    const auto value = read_number(part);
+    if (!value)
+      throw InputError(ErrorKind::usage, {},
+                       fmt::format("{}: '{}' in '{}' must be a finite number", name, part, text));
+    values.push_back(*value);
+  }
+  return values;
+}
+
 PoseText pose_of(std::string_view name, std::string_view text) {
-  const auto parts = split(text);
-  if (parts.size() != 3 && parts.size() != 6)
+  const std::size_t count = split(text).size();
+  if (count != 3 && count != 6)
     throw InputError(
         ErrorKind::usage, {},
         fmt::format("{}: '{}' has {} numbers, must be three lengths in mm, or these and three angles in "
                     "degrees",
-                    name, text, parts.size()));
-  Vector6 values = Vector6::Zero();
-  for (std::size_t i = 0; i < parts.size(); ++i) {
-    const auto value = read_number(parts[i]);
-    if (!value)
-      throw InputError(ErrorKind::usage, {},
-                       fmt::format("{}: '{}' in '{}' must be a finite number", name, parts[i], text));
-    values[static_cast<Eigen::Index>(i)] = *value;
-  }
-  return {Pose{from_rpy(values.tail<3>() * deg), values.head<3>() * mm}, parts.size() == 6};
+                    name, text, count));
+  std::vector<double> values = numbers_of(name, text);
+  values.resize(6);
+  return {Pose{from_rpy(Vector3(values[3], values[4], values[5]) * deg),
+               Vector3(values[0], values[1], values[2]) * mm},
+          count == 6};
+}
+
+Pose written_pose_of(std::string_view name, std::string_view text, std::string_view as) {
+  const std::vector<double> values = numbers_of(name, text);
+  const bool is_quaternion = as == "abb";
+  if (values.size() != (is_quaternion ? 7u : 6u))
+    throw InputError(
+        ErrorKind::usage, {},
+        fmt::format("{}: '{}' has {} numbers, must be three lengths in mm and {}", name, text, values.size(),
+                    is_quaternion  ? "the quaternion q1 to q4"
+                    : as == "ur"   ? "a rotation vector in rad"
+                    : as == "kuka" ? "A, B, C in degrees"
+                                   : "W, P, R in degrees"));
+  OrientationNumbers numbers{};
+  std::copy(values.begin() + 3, values.end(), numbers.begin());
+  if (as == "kuka") std::swap(numbers[0], numbers[2]);
+  if (const double norm = Eigen::Vector4d(numbers.data()).norm(); is_quaternion && std::abs(norm - 1) > 1e-3)
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("{}: the quaternion in '{}' has the norm {:.6g}, must be 1 within 0.001",
+                                 name, text, norm));
+  const OrientationForm form = is_quaternion ? OrientationForm::quaternion
+                               : as == "ur"  ? OrientationForm::rotation_vector
+                                             : OrientationForm::fixed_axes;
+  return {rotation_of(form, numbers), Vector3(values[0], values[1], values[2]) * mm};
 }
 
 CurveText curve_of(std::string_view name, std::string_view text) {

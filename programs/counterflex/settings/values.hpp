@@ -31,6 +31,16 @@ struct PoseText {
 };
 PoseText pose_of(std::string_view name, std::string_view text);
 
+/// "0,-90,90": any finite numbers.
+std::vector<double> numbers_of(std::string_view name, std::string_view text);
+
+/// How the numbers of a pose are written, by the maker of the control.
+inline const std::vector<std::string_view> pose_writers = {"kuka", "fanuc", "abb", "ur"};
+
+/// "X,Y,Z" in mm and the numbers of the orientation: KUKA's A,B,C or FANUC's W,P,R in degrees, ABB's q1 to
+/// q4, or the rotation vector of UR in rad. `as` is one of `pose_writers`.
+Pose written_pose_of(std::string_view name, std::string_view text, std::string_view as);
+
 /// "z=0:-12:24" or "1,0,1=0:5:10": a direction in the machine frame (made a unit vector), and the first and
 /// last displacement (mm) and the number of steps between them.
 struct CurveText {

@@ -42,8 +42,9 @@ void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd&
     way.most.resize(mechanism.travel.size(), {-HUGE_VAL, line});
   }
   way.last = values + full_turns(mechanism, values, way.last);
+  const Eigen::VectorXd shown = shown_values(mechanism.shown, way.last);
   for (std::size_t i = 0; i < way.least.size(); ++i) {
-    const double value = way.last[static_cast<Eigen::Index>(i)];
+    const double value = shown[static_cast<Eigen::Index>(i)];
     if (value < way.least[i].value) way.least[i] = {value, line};
     if (value > way.most[i].value) way.most[i] = {value, line};
   }
@@ -105,11 +106,11 @@ TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {
   return {&model, segment.wanted.end, orientation_at(segment, 1)};
 }
 
-// The failure of an axis whose sign the target states, between its values for the wanted and the commanded
-// pose (rad).
+// The failure of an axis whose sign the target states, between the values that the control shows for the
+// wanted and the commanded pose (rad).
 std::optional<Failure> sign_failure(const Travel& travel, double wanted, double commanded, int line) {
   constexpr double exact = 1e-9;
-  const double from = std::remainder(wanted, 2 * pi), to = from + std::remainder(commanded - wanted, 2 * pi);
+  const double from = std::remainder(wanted, 2 * pi), to = from + commanded - wanted;
   if ((from >= -exact) == (to >= -exact)) return std::nullopt;
   return Failure{
       ErrorKind::not_compensated, line,
@@ -134,8 +135,10 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
         solver->nominal({&model, piece.commanded.end, orientation_at(*piece.turn, 1)});
     if (wanted.status != Status::converged || commanded.status != Status::converged) continue;
     const Mechanism& mechanism = model.mechanism;
-    const Eigen::VectorXd from = actuator_values(mechanism, wanted.configuration),
-                          to = actuator_values(mechanism, commanded.configuration);
+    const Eigen::VectorXd first = actuator_values(mechanism, wanted.configuration),
+                          last = actuator_values(mechanism, commanded.configuration),
+                          from = shown_values(mechanism.shown, first),
+                          to = shown_values(mechanism.shown, last + full_turns(mechanism, last, first));
     for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
       if (mechanism.travel[i].kind != JointKind::revolute) continue;
       const auto k = static_cast<Eigen::Index>(i);
@@ -151,10 +154,12 @@ std::optional<Failure> turns_failure(const Job& job, const ActuatorWay& way, Eig
   if (last.size() != way.first.size()) last = way.first;
   const Eigen::VectorXd turns = full_turns(mechanism, way.first, last);
   last = way.last + turns;
+  const Eigen::VectorXd more =
+      shown_values(mechanism.shown, way.first + turns) - shown_values(mechanism.shown, way.first);
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     const Travel& travel = mechanism.travel[i];
     for (ActuatorWay::Extreme extreme : {way.least[i], way.most[i]}) {
-      extreme.value += turns[static_cast<Eigen::Index>(i)];
+      extreme.value += more[static_cast<Eigen::Index>(i)];
       if (extreme.value >= travel.min && extreme.value <= travel.max) continue;
       return Failure{ErrorKind::limit, extreme.line,
                      outside_travel_words(travel, extreme.value) + ", counted on over full turns from home",

@@ -6,6 +6,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/shown.hpp"
 #include "machine/describe/describe_elements.hpp"
 #include "machine/describe/phrases.hpp"
 #include "machine/walk.hpp"
@@ -70,6 +71,12 @@ std::string tool_change_phrase(const ControlSettings& control) {
   return fmt::format("{}", fmt::join(*control.tool_change_moves, " "));
 }
 
+std::string kinematics_phrase(const Machine& machine) {
+  return machine.kinematics == ControlKinematics::factory
+             ? "computes with calibrated lengths; the errors of assembly are those that it leaves"
+             : "computes with catalogue lengths; the errors of assembly are all of the machine";
+}
+
 std::string gravity_phrase(const Machine& machine) {
   const double kg = total_mass(machine);
   if (machine.gravity.g.isZero(0)) return "not given: " + phrase_mass(kg) + " without weight";
@@ -121,6 +128,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
+  if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
   if (machine.work_is_machine_frame)
@@ -134,7 +142,7 @@ void describe_settings(const Machine& machine, std::string& text) {
 }
 
 void describe_chains(const Machine& machine, std::string& text) {
-  int actuator = 0;
+  ActuatorNumbers numbers{shown_homes(machine)};
   for (const Chain& chain : machine.chains) {
     const Freedoms count = freedoms(chain);
     const double kg = total_mass(chain);
@@ -143,7 +151,7 @@ void describe_chains(const Machine& machine, std::string& text) {
                         counted(count.passives, "passive joint", "passive joints"),
                         counted(count.elastic, "elastic coordinate", "elastic coordinates"),
                         kg > 0 ? ", " + phrase_mass(kg) : "");
-    describe_elements(chain.elements, 2, actuator, text);
+    describe_elements(chain.elements, 2, numbers, text);
   }
 }
 
@@ -168,8 +176,11 @@ void describe_actuators(const Machine& machine, std::string& text) {
                       actuators(machine).empty() ? "none" : "axis in the frame of its chain there, travel");
   int number = 0;
   for_each<Actuator>(machine, [&](const Chain& chain, const Actuator& a) {
-    text += fmt::format("  {:2}  {:<7} {:<24} {}\n", ++number, chain.name, phrase(a.joint),
-                        phrase_range(a.joint, a.min, a.max));
+    const std::string name =
+        a.program_axis > 0 ? fmt::format("E{}", a.program_axis) : fmt::format("{}", ++number);
+    const std::string shown = phrase_shown(a);
+    text += fmt::format("  {:>2}  {:<7} {:<24} {}{}{}\n", name, chain.name, phrase(a.joint),
+                        phrase_range(a.joint, a.min, a.max), shown.empty() ? "" : ", ", shown);
   });
 }
 
@@ -187,7 +198,8 @@ void describe_errors(const Machine& machine, std::string& text) {
 Freedoms freedoms(const Chain& chain) {
   Freedoms count;
   for_each_element(chain.elements, [&](const Element& element) {
-    count.actuators += std::holds_alternative<Actuator>(element);
+    const auto* actuator = std::get_if<Actuator>(&element);
+    count.actuators += actuator != nullptr && actuator->program_axis == 0;
     count.passives += std::holds_alternative<Passive>(element);
     count.elastic +=
         std::holds_alternative<Spring>(element) ? 6 : std::holds_alternative<Compliance>(element);

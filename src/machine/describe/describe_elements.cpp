@@ -38,7 +38,17 @@ std::string passive_range(const Passive& passive) {
   return ", " + phrase_range(passive.joint, passive.min, passive.max);
 }
 
-Line line_of(const Element& element, int& actuator) {
+Line line_of(const Actuator& a, ActuatorNumbers& numbers) {
+  const std::string what = fmt::format("{}, {}", phrase(a.joint), phrase_range(a.joint, a.min, a.max));
+  if (a.program_axis > 0)
+    return {fmt::format("axis E{}", a.program_axis),
+            fmt::format("{}, at {} unless the program gives it", what, phrase_value(a.joint, a.home))};
+  const int number = ++numbers.last;
+  const std::string start = starting(a.joint, numbers.shown_homes[number - 1]), shown = phrase_shown(a);
+  return {fmt::format("actuator {}", number), what + start + (shown.empty() ? "" : ", " + shown)};
+}
+
+Line line_of(const Element& element, ActuatorNumbers& numbers) {
   return std::visit(
       Match{
           [](const Rigid& rigid) {
@@ -47,11 +57,7 @@ Line line_of(const Element& element, int& actuator) {
           [](const AssemblyError& error) {
             return Line{"error", error.name + ": " + phrase(error.X)};
           },
-          [&](const Actuator& a) {
-            return Line{fmt::format("actuator {}", ++actuator),
-                        fmt::format("{}, {}{}", phrase(a.joint), phrase_range(a.joint, a.min, a.max),
-                                    starting(a.joint, a.home))};
-          },
+          [&](const Actuator& a) { return line_of(a, numbers); },
           [](const Passive& p) {
             return Line{"passive",
                         phrase(p.joint) + passive_range(p) + starting(p.joint, p.home) + resting(p)};
@@ -74,10 +80,11 @@ Line line_of(const Element& element, int& actuator) {
 
 }  // namespace
 
-void describe_elements(const std::vector<Element>& elements, int indent, int& actuator, std::string& text) {
+void describe_elements(const std::vector<Element>& elements, int indent, ActuatorNumbers& numbers,
+                       std::string& text) {
   int number = 0;
   for (const Element& element : elements) {
-    const Line line = line_of(element, actuator);
+    const Line line = line_of(element, numbers);
     // A mass is in the entry of the element before it.
     const std::string place = std::holds_alternative<PointMass>(element) ? "" : fmt::format("{}", ++number);
     text += fmt::format("{:{}}{:>2}  {:<12} {}\n", "", indent, place, line.kind, line.what);
@@ -85,7 +92,7 @@ void describe_elements(const std::vector<Element>& elements, int indent, int& ac
     if (group == nullptr) continue;
     for (const Branch& branch : group->branches) {
       text += fmt::format("{:{}}branch {}\n", "", indent + 6, branch.name);
-      describe_elements(branch.elements, indent + 6, actuator, text);
+      describe_elements(branch.elements, indent + 6, numbers, text);
     }
   }
 }

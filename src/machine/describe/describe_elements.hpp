@@ -6,8 +6,14 @@
 
 namespace counterflex {
 
-/// Appends one indented line for each element to `text`, with deeper indentation for branches. `actuator` is
-/// the number of the previous actuator, and is increased.
-void describe_elements(const std::vector<Element>& elements, int indent, int& actuator, std::string& text);
+/// The numbered actuators of a machine while its elements are described.
+struct ActuatorNumbers {
+  Eigen::VectorXd shown_homes;  ///< of all
+  int last = 0;                 ///< number of the previous one
+};
+
+/// Appends one indented line for each element to `text`, with deeper indentation for branches.
+void describe_elements(const std::vector<Element>& elements, int indent, ActuatorNumbers& numbers,
+                       std::string& text);
 
 }  // namespace counterflex

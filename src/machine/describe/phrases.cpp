@@ -74,6 +74,18 @@ std::string phrase_range(const Joint& joint, double min, double max) {
   return below ? "below " + phrase_value(joint, max) : "without limits";
 }
 
+std::string phrase_shown(const Actuator& actuator) {
+  const ShownValue& shown = actuator.shown;
+  if (shown.sign == 1 && shown.zero == 0 && shown.coupled.empty()) return "";
+  std::string text = shown.sign < 0 ? "shown = -q" : "shown = q";
+  const auto sign = [](double value) { return value < 0 ? '-' : '+'; };
+  if (shown.zero != 0)
+    text += fmt::format(" {} {}", sign(shown.zero), phrase_value(actuator.joint, std::abs(shown.zero)));
+  for (const auto& [other, factor] : shown.coupled)
+    text += fmt::format(" {} {:.9g} J{}", sign(factor), std::abs(factor), other + 1);
+  return text;
+}
+
 std::string phrase_stiffness(const Joint& joint, double stiffness) {
   return fmt::format("{:.6g} {}", stiffness, joint.kind == JointKind::prismatic ? "N/m" : "N m/rad");
 }

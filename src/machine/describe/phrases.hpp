@@ -22,6 +22,9 @@ std::string phrase_value(const Joint& joint, double value);
 /// `-120 to 260 mm`, `below 90 deg`, `without limits`.
 std::string phrase_range(const Joint& joint, double min, double max);
 
+/// `shown = -q + 90 deg + 1 J2`, where q is the joint's value; empty if the control shows q.
+std::string phrase_shown(const Actuator& actuator);
+
 /// `2.5e+06 N m/rad`.
 std::string phrase_stiffness(const Joint& joint, double stiffness);
 

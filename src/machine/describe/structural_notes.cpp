@@ -6,6 +6,7 @@
 #include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/machine/shown.hpp"
 #include "machine/describe/phrases.hpp"
 #include "machine/walk.hpp"
 
@@ -53,15 +54,19 @@ void note_passives(const Machine& machine, Notes& notes) {
 
 void note_actuators(const Machine& machine, Notes& notes) {
   int number = 0;
+  const Eigen::VectorXd homes = shown_homes(machine);
   for_each<Actuator>(machine, [&](const Chain& chain, const Actuator& a) {
-    const std::string who = fmt::format("actuator {} (chain {}, {})", ++number, chain.name, phrase(a.joint));
+    const double home = a.program_axis > 0 ? a.home : homes[number];
+    const std::string name =
+        a.program_axis > 0 ? fmt::format("axis E{}", a.program_axis) : fmt::format("actuator {}", ++number);
+    const std::string who = fmt::format("{} (chain {}, {})", name, chain.name, phrase(a.joint));
     if (!std::isfinite(a.min) || !std::isfinite(a.max))
       notes.push_back(
           fmt::format("{} has {}: leaving its travel is not detected", who,
                       std::isfinite(a.min) || std::isfinite(a.max) ? "one limit only" : "no limits"));
-    if (a.home < a.min || a.home > a.max)
-      notes.push_back(fmt::format("{} starts at {}, outside its travel {}", who,
-                                  phrase_value(a.joint, a.home), phrase_range(a.joint, a.min, a.max)));
+    if (home < a.min || home > a.max)
+      notes.push_back(fmt::format("{} starts at {}, outside its travel {}", who, phrase_value(a.joint, home),
+                                  phrase_range(a.joint, a.min, a.max)));
   });
   if (number > 0 && machine.controlled.empty())
     notes.push_back("controlled is empty: the machine can be analysed, not compensated");

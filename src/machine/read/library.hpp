@@ -1,6 +1,7 @@
 #pragma once
 /// Definitions of a machine file that its chains share.
 #include "counterflex/machine/machine.hpp"
+#include "machine/read/read_shown.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex::toml_file {
@@ -11,6 +12,7 @@ struct Library {
   DefinitionsByName<Spring> springs;
   DefinitionsByName<const toml::node*> branches;
   DefinitionsByName<const toml::node*> templates;
+  ActuatorsBefore actuators;    ///< of all chains so far
   std::size_t elements = 0;     ///< of all chains so far
   std::size_t coordinates = 0;  ///< of all chains so far, see `read_elements`
 };

@@ -127,7 +127,7 @@ Element read_element(const toml::table& table, Expansion& expansion) {
   if (kind.empty()) fail_without_kind(table, source);
   if (kind == "rigid") return read_rigid(table, expansion);
   if (kind == "error") return read_error(table, expansion);
-  if (kind == "actuator") return read_actuator(table, reading_of(expansion));
+  if (kind == "actuator") return read_actuator(table, reading_of(expansion), expansion.library.actuators);
   if (kind == "passive") return read_passive(table, reading_of(expansion));
   if (kind == "spring") return read_spring_element(table, expansion);
   if (kind == "compliance") return read_compliance(table, reading_of(expansion));

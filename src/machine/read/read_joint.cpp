@@ -14,6 +14,7 @@ struct JointKeys {
   std::string_view name;
   double unit;
   std::string_view min, max, home, preload, stiffness, compliance;
+  std::string_view stiffness_per_arcmin{};  ///< of rotary joints
 };
 
 constexpr JointKeys prismatic = {
@@ -27,10 +28,25 @@ constexpr JointKeys revolute = {JointKind::revolute,
                                 "home_deg",
                                 "preload_deg",
                                 "stiffness_Nm_per_rad",
-                                "compliance_rad_per_Nm"};
+                                "compliance_rad_per_Nm",
+                                "stiffness_Nm_per_arcmin"};
+
+constexpr double per_arcmin = 10800 / pi;  // 1 N m/arcmin in N m/rad
 
 std::string_view unit_of(const JointKeys& keys) {
   return keys.kind == JointKind::prismatic ? "N/m" : "N m/rad";
+}
+
+/// The keys that give a stiffness.
+std::vector<std::string_view> stiffness_keys(const JointKeys& keys) {
+  std::vector<std::string_view> all = {keys.stiffness};
+  if (!keys.stiffness_per_arcmin.empty()) all.push_back(keys.stiffness_per_arcmin);
+  return all;
+}
+
+/// A value under one of these keys in SI.
+double stiffness_in_si(double value, std::string_view form, const JointKeys& keys) {
+  return form == keys.stiffness ? value : value * per_arcmin;
 }
 
 const JointKeys& read_kind(const toml::table& table, std::string_view element, const Source& source) {
@@ -85,7 +101,7 @@ void read_preload(Passive& passive, const toml::table& table, const JointKeys& k
                   const Reading& reading) {
   const std::string_view form = one_of(table, {"preload", keys.preload}, owner, reading.source);
   if (form.empty()) return;
-  if (!table.contains(keys.stiffness))
+  if (one_of(table, stiffness_keys(keys), owner, reading.source).empty())
     reading.source.fail(key_of(table, form), fmt::format("{} needs {}: a joint without a spring moves freely",
                                                          form, keys.stiffness));
   if (form == keys.preload) {
@@ -98,32 +114,37 @@ void read_preload(Passive& passive, const toml::table& table, const JointKeys& k
 
 }  // namespace
 
-Actuator read_actuator(const toml::table& table, const Reading& reading) {
+Actuator read_actuator(const toml::table& table, const Reading& reading, ActuatorsBefore& before) {
   const JointKeys& keys = read_kind(table, "actuator", reading.source);
   const std::string owner = fmt::format("a {} actuator", keys.name);
-  check_keys(table, {"actuator", "axis", keys.min, keys.max, keys.home, "mass"}, owner, reading.source);
+  std::vector<std::string_view> allowed = {"actuator", "axis", keys.min, keys.max, keys.home, "mass"};
+  for (const std::string_view key : shown_keys(keys.kind)) allowed.push_back(key);
+  check_keys(table, allowed, owner, reading.source);
   Actuator actuator;
   actuator.joint = read_joint(table, keys, owner, reading);
   read_travel(actuator, table, keys, reading);
   actuator.home = joint_value(table, keys.home, keys, 0, reading);
+  read_shown(table, reading, before, actuator);
   return actuator;
 }
 
 Passive read_passive(const toml::table& table, const Reading& reading) {
   const JointKeys& keys = read_kind(table, "passive", reading.source);
   const std::string owner = fmt::format("a {} passive joint", keys.name);
-  check_keys(
-      table,
-      {"passive", "axis", keys.min, keys.max, keys.home, keys.stiffness, keys.preload, "preload", "mass"},
-      owner, reading.source);
+  std::vector<std::string_view> allowed = {"passive", "axis",       keys.min,  keys.max,
+                                           keys.home, keys.preload, "preload", "mass"};
+  for (const std::string_view key : stiffness_keys(keys)) allowed.push_back(key);
+  check_keys(table, allowed, owner, reading.source);
   Passive passive;
   passive.joint = read_joint(table, keys, owner, reading);
   read_travel(passive, table, keys, reading);
   passive.home = joint_value(table, keys.home, keys, 0, reading);
-  if (const toml::node* node = table.get(keys.stiffness))
-    passive.stiffness = as_not_negative(*node, {keys.stiffness}, reading);
-  if (const toml::node* node = table.get(keys.stiffness))
-    refuse_too_stiff(passive.stiffness, owner, unit_of(keys), *node, reading.source);
+  const std::string_view form = one_of(table, stiffness_keys(keys), owner, reading.source);
+  if (!form.empty()) {
+    const toml::node& node = *table.get(form);
+    passive.stiffness = stiffness_in_si(as_not_negative(node, {form}, reading), form, keys);
+    refuse_too_stiff(passive.stiffness, owner, unit_of(keys), node, reading.source);
+  }
   read_preload(passive, table, keys, owner, reading);
   return passive;
 }
@@ -131,16 +152,19 @@ Passive read_passive(const toml::table& table, const Reading& reading) {
 Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const JointKeys& keys = read_kind(table, "compliance", reading.source);
   const std::string owner = fmt::format("a {} compliance", keys.name);
-  check_keys(table, {"compliance", "axis", keys.stiffness, keys.compliance, "preload", "mass"}, owner,
-             reading.source);
+  std::vector<std::string_view> forms = stiffness_keys(keys);
+  forms.push_back(keys.compliance);
+  std::vector<std::string_view> allowed = {"compliance", "axis", "preload", "mass"};
+  allowed.insert(allowed.end(), forms.begin(), forms.end());
+  check_keys(table, allowed, owner, reading.source);
   Compliance compliance;
   compliance.joint = read_joint(table, keys, owner, reading);
-  const std::string_view form = one_of(table, {keys.stiffness, keys.compliance}, owner, reading.source);
+  const std::string_view form = one_of(table, forms, owner, reading.source);
   if (form.empty())
     reading.source.fail(table,
                         fmt::format("{} has neither {} nor {}", owner, keys.stiffness, keys.compliance));
   const double value = as_positive(*table.get(form), {form}, reading);
-  compliance.stiffness = form == keys.stiffness ? value : 1 / value;
+  compliance.stiffness = form == keys.compliance ? 1 / value : stiffness_in_si(value, form, keys);
   refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
   // In the nominal configuration its coordinate is 0, so that "home" is the default.
   if (const toml::node* preload = table.get("preload")) check_preload_home(*preload, "", reading.source);

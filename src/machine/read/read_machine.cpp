@@ -7,6 +7,7 @@
 #include "machine/read/read_chains.hpp"
 #include "machine/read/read_load_limits.hpp"
 #include "machine/read/read_settings.hpp"
+#include "machine/read/read_shown.hpp"
 #include "machine/read/read_tools.hpp"
 #include "toml/fields.hpp"
 
@@ -51,10 +52,11 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const Source source(text, file);
   const toml::table document = source.parse();
   check_format(document, source);
-  check_keys(document,
-             {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
-              "tools", "work", "program", "limits", "springs", "branches", "templates", "chain"},
-             "a machine file", source);
+  check_keys(
+      document,
+      {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
+       "tools", "work", "program", "controller", "limits", "springs", "branches", "templates", "chain"},
+      "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
     machine.name = without_controls(as_text(*name, "name", source));
@@ -66,8 +68,10 @@ Machine read_machine(std::string_view text, const std::string& file) {
   read_tools(document, source, machine);
   read_work(document, source, machine);
   read_program(document, source, machine);
+  read_controller(document, source, machine);
   read_limits(document, source, machine);
   machine.chains = read_chains(document, source);
+  convert_homes(machine);
   read_load_limits(document, source, machine);
   if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);

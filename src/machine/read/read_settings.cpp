@@ -161,6 +161,17 @@ void read_program(const toml::table& document, const Source& source, Machine& ma
         std::string(as_choice(*centres, "arc_centres", {"incremental", "absolute"}, source)) == "absolute";
 }
 
+void read_controller(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* node = document.get("controller");
+  if (node == nullptr) return;
+  const toml::table& table = as_table(*node, "controller", source);
+  check_keys(table, {"kinematics"}, "[controller]", source);
+  if (const toml::node* kinematics = table.get("kinematics"))
+    machine.kinematics = as_choice(*kinematics, "kinematics", {"catalogue", "factory"}, source) == "factory"
+                             ? ControlKinematics::factory
+                             : ControlKinematics::catalogue;
+}
+
 void read_limits(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("limits");
   if (node == nullptr) return;

@@ -13,6 +13,7 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
 void read_spindle(const toml::table& document, const Source& source, Machine& machine);
 void read_work(const toml::table& document, const Source& source, Machine& machine);
 void read_program(const toml::table& document, const Source& source, Machine& machine);
+void read_controller(const toml::table& document, const Source& source, Machine& machine);
 void read_limits(const toml::table& document, const Source& source, Machine& machine);
 
 }  // namespace counterflex::toml_file

@@ -56,17 +56,17 @@ bool place_external(const RobotTarget& target, RobotReading& r, int line) {
   RobotState& state = r.state;
   bool stay = true;
   for (std::size_t i = 0; i < target.external.size(); ++i) {
-    if (!target.external[i]) continue;
-    stay = stay && state.external[i] == target.external[i];
-    state.external[i] = target.external[i];
-    std::optional<double>& first = state.first_external[i];
-    if (!first) first = target.external[i];
-    if (*first == *target.external[i] || r.program.external_axes_move) continue;
-    r.program.external_axes_move = Remark{
-        line,
-        fmt::format("external axis {} moves from {} to {}: the machine file has no such axis; keep it in "
-                    "one place in a program, and put that place into the machine file",
-                    i + 1, *first, *target.external[i])};
+    const std::optional<double> value = target.external[i] ? target.external[i] : state.external[i];
+    if (!value) continue;
+    stay = stay && state.external[i] == value;
+    state.external[i] = value;
+    std::optional<ExternalAxis>& first = r.program.external_axes[i];
+    if (!first) first = ExternalAxis{*value, line};
+    if (first->value == *value || r.program.external_axes_move) continue;
+    r.program.external_axes_move =
+        Remark{line, fmt::format("external axis E{} moves from {} to {}: a program is corrected only if its "
+                                 "external axes stay; divide it where they move",
+                                 i + 1, first->value, *value)};
   }
   return stay;
 }

@@ -18,7 +18,6 @@ struct RobotState {
   OrientationNumbers orientation{};
   std::array<bool, 4> known_orientation{};  ///< by number
   std::array<std::optional<double>, 6> external{};
-  std::array<std::optional<double>, 6> first_external{};  ///< of the program
   bool moved_by_machine = false;              ///< since the last move: a joint target, another frame or tool
   LengthUnit unit = LengthUnit::millimetres;  ///< of the numbers of positions in the text
   double feed_mm_min = 0;

@@ -229,7 +229,8 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
 
 AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const Load& load, Method method,
                        const std::string& version, const AnalysisExtras& extras) {
-  AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, {}};
+  AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, model.mechanism.shown,
+                        {}};
   report.weighs = has_weight(model.mechanism);
   report.curve = extras.curve;
   for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method, extras));

@@ -10,14 +10,16 @@ namespace counterflex {
 
 namespace {
 
-Json actuators(const Eigen::VectorXd& rho, const std::vector<Travel>& travel) {
+Json actuators(const Eigen::VectorXd& rho, const AnalysisReport& report) {
+  const std::vector<Travel>& travel = report.travel;
+  const Eigen::VectorXd shown = shown_values(report.shown, rho);
   Json list = Json::array();
-  for (Eigen::Index k = 0; k < rho.size(); ++k)
-    list.push_back(number(rho[k] / (travel[k].kind == JointKind::prismatic ? mm : deg), analysis_digits));
+  for (Eigen::Index k = 0; k < shown.size(); ++k)
+    list.push_back(number(shown[k] / (travel[k].kind == JointKind::prismatic ? mm : deg), analysis_digits));
   return list;
 }
 
-Json corrected_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
+Json corrected_json(const PoseAnalysis& pose, const AnalysisReport& report) {
   if (!pose.corrected) return nullptr;
   const CorrectedTarget& corrected = *pose.corrected;
   const std::string status(to_string(corrected.status));
@@ -25,7 +27,7 @@ Json corrected_json(const PoseAnalysis& pose, const std::vector<Travel>& travel)
     return {{"target_mm", nullptr}, {"rpy_deg", nullptr}, {"actuators", nullptr}, {"status", status}};
   return {{"target_mm", numbers(Vector3(corrected.X_MT.p / mm), analysis_digits)},
           {"rpy_deg", numbers(Vector3(to_rpy(corrected.X_MT.R) / deg), analysis_digits)},
-          {"actuators", actuators(corrected.rho, travel)},
+          {"actuators", actuators(corrected.rho, report)},
           {"status", status}};
 }
 
@@ -47,7 +49,7 @@ Json chains_json(const std::vector<ChainLoads>& chains) {
   return list;
 }
 
-Json standard_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
+Json standard_json(const PoseAnalysis& pose, const AnalysisReport& report) {
   const bool known = has_values(pose.status), stiff = known && pose.stiffness_available;
   const bool soft = known && pose.softest_stiffness != 0;
   const bool direction = !pose.weakest.isZero(0);
@@ -71,13 +73,13 @@ Json standard_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) 
           {"indeterminate_wrenches", pose.indeterminate},
           {"condition", if_known(significant(pose.condition, analysis_significant_digits))},
           {"stability", if_known(significant(pose.stability, analysis_significant_digits))},
-          {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, travel) : Json(nullptr)},
-          {"corrected", corrected_json(pose, travel)},
+          {"actuators", known || pose.rho.size() > 0 ? actuators(pose.rho, report) : Json(nullptr)},
+          {"corrected", corrected_json(pose, report)},
           {"chains", chains_json(pose.chains)}};
 }
 
-Json pose_json(const PoseAnalysis& pose, const std::vector<Travel>& travel) {
-  Json json = standard_json(pose, travel);
+Json pose_json(const PoseAnalysis& pose, const AnalysisReport& report) {
+  Json json = standard_json(pose, report);
   if (!pose.details.empty()) json["full"] = details_json(pose.details);
   if (pose.held) json["held"] = held_json(*pose.held);
   if (pose.curve) json["curve"] = curve_json(*pose.curve);
@@ -100,7 +102,7 @@ Json matrix_json(const Matrix6& K) {
 
 std::string to_json(const AnalysisReport& report) {
   Json poses = Json::array();
-  for (const PoseAnalysis& pose : report.poses) poses.push_back(pose_json(pose, report.travel));
+  for (const PoseAnalysis& pose : report.poses) poses.push_back(pose_json(pose, report));
   Json document = {{"schema", "counterflex-analysis 1"},
                    {"tool", fmt::format("counterflex {}", report.version)},
                    {"machine", report.machine},

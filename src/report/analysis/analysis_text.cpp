@@ -96,9 +96,12 @@ std::string actuators(const AnalysisReport& report) {
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     const PoseAnalysis& pose = report.poses[i];
     if (pose.rho.size() == 0) continue;
-    text += fmt::format("  {:>3} nominal {}\n", i + 1, actuator_values_text(pose.rho, report.travel));
+    text += fmt::format("  {:>3} nominal {}\n", i + 1,
+                        actuator_values_text(shown_values(report.shown, pose.rho), report.travel));
     if (pose.corrected && has_values(pose.corrected->status))
-      text += fmt::format("         ->   {}\n", actuator_values_text(pose.corrected->rho, report.travel));
+      text +=
+          fmt::format("         ->   {}\n",
+                      actuator_values_text(shown_values(report.shown, pose.corrected->rho), report.travel));
   }
   return text;
 }

@@ -133,6 +133,24 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
   return text + (others ? ". Moves with another tool, or an unknown one, use [tool], rigid." : ".");
 }
 
+namespace {
+
+const char* own_corrections_of_arm(const Machine& machine) {
+  switch (machine.kinematics) {
+    case ControlKinematics::catalogue:
+      return "the control's payload data; it computes with catalogue lengths (kinematics = \"catalogue\")";
+    case ControlKinematics::factory:
+      return "the control's payload data; it computes with calibrated lengths (kinematics = \"factory\"), "
+             "and "
+             "the errors in the machine file are those that they leave";
+    case ControlKinematics::unstated:
+      break;
+  }
+  return "the control's own corrections: absolute accuracy, payload data";
+}
+
+}  // namespace
+
 std::vector<std::string> not_modelled(const Machine& machine) {
   const bool arm = turns_joints(machine);
   return {
@@ -140,7 +158,7 @@ std::vector<std::string> not_modelled(const Machine& machine) {
           : "backlash and friction: the tip differs where an axis reverses",
       "heat: growth of spindle and frame, from the first part of the day to the last",
       "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter",
-      arm ? "the control's own corrections: absolute accuracy, payload data"
+      arm ? own_corrections_of_arm(machine)
           : "the control's own corrections: pitch, straightness and volumetric tables; errors that they "
             "remove must not be in the machine file"};
 }

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "statics/model/home.hpp"
+#include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
@@ -37,6 +38,7 @@ struct Compiler {
     return {.kind = PartKind::error, .X = e.X, .log_R = log_so3(e.X.R)};
   }
   Part operator()(const Actuator& e) {
+    if (e.program_axis > 0) return {.kind = PartKind::fixed, .X = displacement(e.joint, e.home)};
     Part part{
         .kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
     numbering.travel.push_back({e.min, e.max, e.joint.kind});
@@ -104,6 +106,7 @@ Mechanism compile(const Machine& machine) {
   std::sort(mechanism.controlled.begin(), mechanism.controlled.end());
   mechanism.X_PT = machine.X_PT;
   mechanism.p_EP = machine.p_EP;
+  mechanism.shown = shown_actuators(machine);
   mechanism.gravity = machine.gravity.g;
   const bool weighs = !mechanism.gravity.isZero(0);
   Numbering numbering{0, mechanism.travel};

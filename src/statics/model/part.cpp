@@ -2,6 +2,11 @@
 
 namespace counterflex {
 
+Pose displacement(const Joint& joint, double value) {
+  const Vector3 motion = value * joint.axis;
+  return joint.kind == JointKind::prismatic ? translation(motion) : rotation(exp_so3(motion));
+}
+
 Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage) {
   switch (part.kind) {
     case PartKind::fixed:
@@ -17,8 +22,7 @@ Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage) {
     default:
       break;
   }
-  const Vector3 motion = (state.x[part.column] + stage.gravity * part.offset) * part.joint.axis;
-  return part.joint.kind == JointKind::prismatic ? translation(motion) : rotation(exp_so3(motion));
+  return displacement(part.joint, state.x[part.column] + stage.gravity * part.offset);
 }
 
 int columns_of(const Part& part) {

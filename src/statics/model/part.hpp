@@ -4,6 +4,9 @@
 
 namespace counterflex {
 
+/// The transform of a joint at `value`.
+Pose displacement(const Joint& joint, double value);
+
 /// Pose of the frame after a part in the frame before it.
 Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage);
 

@@ -29,7 +29,7 @@ std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::
   std::optional<AxisPlace> tightest;
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     const Travel& travel = mechanism.travel[i];
-    const double value = rho[static_cast<Eigen::Index>(i)];
+    const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho.data());
     const double margin = std::min(value - travel.min, travel.max - value);
     if (!std::isfinite(margin)) continue;
     const double share = margin / span_of(travel);

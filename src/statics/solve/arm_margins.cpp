@@ -53,7 +53,7 @@ double angle_from_line(const Vector3& a, const Vector3& b) {
 
 }  // namespace
 
-std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal) {
+std::optional<std::array<ArmMargin, 3>> arm_margins(const Model& model, const Configuration& nominal) {
   if (!is_arm(model.mechanism)) return std::nullopt;
   const std::array<Line, 6> axes = axes_of(actuator_jacobian(model, nominal).J);
   const Vector3 centre = nearest_point(axes[4], axes[3]);
@@ -63,12 +63,17 @@ std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nom
   const auto in_plane = [&](const Vector3& v) { return Vector3(v - v.dot(a2) * a2); };
   const Vector3 forearm = in_plane(to_3), upper_arm = in_plane(to_2) - forearm;
   const double reach = forearm.norm() + upper_arm.norm();
-  const std::array margins{
+  return std::array{
       ArmMargin{angle_from_line(axes[3].axis, axes[5].axis), "wrist: axes A4 and A6 are in line"},
       ArmMargin{angle_from_line(forearm, upper_arm), "elbow: the arm is stretched or folded"},
       ArmMargin{std::atan2(to_line(centre, axes[0]).norm(), reach),
                 "shoulder: the centre of the wrist is on axis A1"}};
-  return *std::min_element(margins.begin(), margins.end(),
+}
+
+std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal) {
+  const auto margins = arm_margins(model, nominal);
+  if (!margins) return std::nullopt;
+  return *std::min_element(margins->begin(), margins->end(),
                            [](const ArmMargin& a, const ArmMargin& b) { return a.angle < b.angle; });
 }
 

@@ -154,12 +154,8 @@ struct BatchSolver::Impl {
   }
 
   bool in_travel(std::size_t waypoint) const {
-    const auto& travel = table.model.mechanism.travel;
-    for (std::size_t a = 0; a < travel.size(); ++a)
-      if (const double x = batch.rho[travel.size() * waypoint + a];
-          !(x >= travel[a].min && x <= travel[a].max))
-        return false;
-    return true;
+    const Mechanism& mechanism = table.model.mechanism;
+    return within_travel(mechanism, batch.rho.data() + mechanism.travel.size() * waypoint);
   }
 
   void solve_kinematics() { batch.solve({.real = {}, .nominal = table.nominal()}); }

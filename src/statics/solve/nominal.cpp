@@ -82,10 +82,16 @@ ActuatorJacobian jacobian_of(const Mechanism& mechanism, Kinematics& held, const
 
 }  // namespace
 
-bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
-  for (Eigen::Index i = 0; i < rho.size(); ++i)
-    if (!(rho[i] >= mechanism.travel[i].min && rho[i] <= mechanism.travel[i].max)) return false;
+bool within_travel(const Mechanism& mechanism, const double* rho) {
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
+    const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho);
+    if (!(value >= mechanism.travel[i].min && value <= mechanism.travel[i].max)) return false;
+  }
   return true;
+}
+
+bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
+  return within_travel(mechanism, rho.data());
 }
 
 ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal) {

@@ -355,6 +355,30 @@ TEST_CASE("a line that stops at its target, or whose external axes move, is not 
   CHECK(program.external_axes_move->what.find("from 0 to 5") != std::string::npos);
 }
 
+TEST_CASE("the program gives its external axes with their first lines, also from a joint target before it") {
+  const Program program = read_statements(
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
+      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n"
+      "LIN {X 2,E2 -30} C_DIS\n");
+  REQUIRE(program.external_axes[0]);
+  CHECK(program.external_axes[0]->value == 850);
+  CHECK(program.external_axes[0]->line == program.moves[0].line);
+  REQUIRE(program.external_axes[1]);
+  CHECK(program.external_axes[1]->value == -30);
+  CHECK(!program.external_axes[2]);
+  CHECK(!program.external_axes_move);
+}
+
+TEST_CASE(
+    "an external axis that a joint target moves has moved, though the targets after it do not have it") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0,E1 0}\n"
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
+      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n");
+  REQUIRE(program.external_axes_move);
+  CHECK(program.external_axes_move->line == program.moves[1].line);
+}
+
 TEST_CASE("a named target is changed where it is declared, or in the moves if several use it") {
   const Program program = read_statements(
       "DECL E6POS P1={X 0,Y 0,Z 5,A 0,B 0,C 0,S 2,T 10,E1 5}\n"
