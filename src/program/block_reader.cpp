@@ -11,6 +11,7 @@
 #include "program/kuka/reader.hpp"
 #include "program/rapid/reader.hpp"
 #include "program/ur/reader.hpp"
+#include "program/yaskawa/reader.hpp"
 
 namespace counterflex {
 namespace {
@@ -100,6 +101,8 @@ std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOpti
   if (dialect.name == ur_name) return std::make_unique<UrReader>(file, options, dialect, std::move(outline));
   if (dialect.name == apt_name)
     return std::make_unique<AptReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == yaskawa_name)
+    return std::make_unique<YaskawaReader>(file, options, dialect, std::move(outline));
   return std::make_unique<LineReader>(file, options, dialect, std::move(outline));
 }
 

@@ -68,8 +68,9 @@ struct Dialect {
 /// The name of Heidenhain Klartext, which is not G-code.
 inline constexpr std::string_view klartext_name = "heidenhain";
 
-/// The names of robot languages: KUKA KRL, ABB RAPID, URScript of Universal Robots, APT.
-inline constexpr std::string_view kuka_name = "kuka", abb_name = "abb", ur_name = "ur", apt_name = "apt";
+/// The names of robot languages: KUKA KRL, ABB RAPID, URScript of Universal Robots, APT, Yaskawa INFORM.
+inline constexpr std::string_view kuka_name = "kuka", abb_name = "abb", ur_name = "ur", apt_name = "apt",
+                                  yaskawa_name = "yaskawa";
 
 inline constexpr char comment_open = '(';
 inline constexpr char comment_close = ')';

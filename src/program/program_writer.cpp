@@ -7,6 +7,7 @@
 #include "program/rapid/writer.hpp"
 #include "program/ur/writer.hpp"
 #include "program/write/gcode_writer.hpp"
+#include "program/yaskawa/writer.hpp"
 
 namespace counterflex {
 
@@ -16,6 +17,7 @@ std::unique_ptr<ProgramWriter> make_writer(const Program& window, const WriteOpt
   if (window.dialect == abb_name) return std::make_unique<RapidWriter>(window, options);
   if (window.dialect == ur_name) return std::make_unique<UrWriter>(window, options);
   if (window.dialect == apt_name) return std::make_unique<AptWriter>(window, options);
+  if (window.dialect == yaskawa_name) return std::make_unique<YaskawaWriter>(window, options);
   return std::make_unique<GcodeWriter>(window, options);
 }
 

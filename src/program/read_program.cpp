@@ -11,6 +11,7 @@
 #include "program/robot/reader.hpp"
 #include "program/text/operation.hpp"
 #include "program/ur/lex.hpp"
+#include "program/yaskawa/reader.hpp"
 
 namespace counterflex {
 
@@ -38,6 +39,7 @@ bool is_corrected(const Program& program) {
   if (program.dialect == abb_name) return is_corrected_robot_program(program.text, rapid_comment);
   if (program.dialect == ur_name) return is_corrected_robot_program(program.text, ur_comment);
   if (program.dialect == apt_name) return is_corrected_robot_program(program.text, apt_comment);
+  if (program.dialect == yaskawa_name) return is_corrected_job(program.text);
   const Dialect& dialect = *find_dialect(program.dialect);
   Block block;
   for (int percents = 0; next_line(program.text, block);) {

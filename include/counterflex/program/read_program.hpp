@@ -11,11 +11,11 @@
 namespace counterflex {
 
 struct ReadOptions {
-  /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt. auto inspects the
-  /// first megabyte: BEGIN PGM means heidenhain; DEF NAME( ) means kuka; MODULE means abb; def NAME( ): means
-  /// ur; PARTNO or GOTO/ means apt; words of a Sinumerik mean siemens; an O-number or a name behind '%' means
-  /// fanuc, or haas or mach3 if only they know all codes. All other programs are linuxcnc, or mach3 if only
-  /// mach3 knows all codes, or grbl if a comment names it.
+  /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, yaskawa. auto
+  /// inspects the first megabyte: BEGIN PGM means heidenhain; DEF NAME( ) means kuka; MODULE means abb; def
+  /// NAME( ): means ur; PARTNO or GOTO/ means apt; /JOB means yaskawa; words of a Sinumerik mean siemens; an
+  /// O-number or a name behind '%' means fanuc, or haas or mach3 if only they know all codes. All other
+  /// programs are linuxcnc, or mach3 if only mach3 knows all codes, or grbl if a comment names it.
   std::string dialect = "auto";
   std::optional<LengthUnit> unit;  ///< used if the program has no G20 or G21 before its first move
   /// Axes of "XYZ" that are unknown after a tool change; default: no axis for linuxcnc and grbl, all axes for

@@ -9,12 +9,21 @@
 namespace counterflex::cli {
 namespace {
 
-/// The first bytes of a file, enough for a header; empty if it cannot be read.
+/// The first bytes of a file, enough for a header; empty if it cannot be read. In a Yaskawa job the header
+/// is behind the list of all positions.
 std::string beginning_of(const std::string& path) {
   constexpr std::size_t enough = 1 << 14;
   std::string bytes;
   try {
-    FileReader(path).append(bytes, enough);
+    FileReader file(path);
+    file.append(bytes, enough);
+    if (!bytes.starts_with("/JOB")) return bytes;
+    std::size_t searched = 0;
+    while (bytes.find("//INST", searched) == std::string::npos) {
+      searched = bytes.size() - std::min<std::size_t>(bytes.size(), 6);
+      if (file.append(bytes, enough) == 0) break;
+    }
+    file.append(bytes, enough);
   } catch (const InputError&) {
     return {};
   }

@@ -89,7 +89,7 @@ std::vector<std::size_t> in_text_order(const Program& window) {
 
 // A comment of the header and nothing else.
 bool is_header(std::string_view line) {
-  for (const std::string_view mark : {";", "!", "#", "$$"})  // of robot languages, too
+  for (const std::string_view mark : {";", "!", "#", "$$", "'"})  // of robot languages, too
     for (const std::string_view text : {" COUNTERFLEX 1", "COUNTERFLEX 1"})
       if (line.starts_with(mark) && line.substr(mark.size()).starts_with(text)) return true;
   return line.starts_with("(COUNTERFLEX 1") && line.find(')') == line.size() - 1;
@@ -151,8 +151,9 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (siemens && calls_modal_cycle(line)) continue;
-    std::string statement = statement_of(
-        window, without(window.counts, window.text, line, line_begin, next_count), sets_surface_);
+    const std::string counted = without(window.counts, window.text, line, line_begin, next_count);
+    if (counted.empty() && !line.empty()) continue;  // targets of moves, which judge them
+    std::string statement = statement_of(window, counted, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});

@@ -219,12 +219,44 @@ std::size_t statement_end(const Program& program, const Move& move) {
   if (program.dialect == "abb") mark = "!";
   if (program.dialect == "ur") mark = "#";
   if (program.dialect == "apt") mark = "$$";
+  if (program.dialect == "yaskawa") mark = "'";
   bool quoted = false;
   for (std::size_t at = move.block.begin; at < move.block.end; ++at) {
     if (program.text[at] == '"') quoted = !quoted;
     if (!quoted && program.text.compare(at, mark.size(), mark) == 0) return at;
   }
   return move.block.end;
+}
+
+// The length of "C", "BC", "EC" or "P" before the digits of a position of Yaskawa; 0 for other words.
+std::size_t letters_of_position(std::string_view word) {
+  for (const std::string_view letters : {"C", "BC", "EC", "P"})
+    if (word.starts_with(letters) && word.size() > letters.size() &&
+        word.find_first_not_of("0123456789", letters.size()) == std::string_view::npos)
+      return letters.size();
+  return 0;
+}
+
+// Yaskawa: '@' for the target, which may be another position in the corrected program. Names of base axes and
+// stations, and of targets of moves that are not followed, lose their numbers, which insertion changes. CR is
+// a zone.
+std::string yaskawa_skeleton(std::string_view statement, bool is_followed) {
+  std::string text;
+  for (std::size_t at = 0; at < statement.size();) {
+    const std::size_t end = std::min(statement.find_first_of(" \t", at), statement.size());
+    const std::string_view word = statement.substr(at, end - at);
+    at = end + 1;
+    const std::size_t letters = letters_of_position(word);
+    const bool is_target = letters == 1 && is_followed;
+    if (word.starts_with("CR=")) continue;
+    if (is_target)
+      text += '@';
+    else if (letters > 0 && word[0] != 'P')
+      text.append(word.substr(0, letters)).append("@");
+    else
+      text.append(word);
+  }
+  return text;
 }
 
 std::string robot_skeleton(const Program& program, const Move& move) {
@@ -243,6 +275,7 @@ std::string robot_skeleton(const Program& program, const Move& move) {
   const std::size_t end = statement_end(program, move);
   const std::string_view statement =
       std::string_view(program.text).substr(move.block.begin, end - move.block.begin);
+  if (program.dialect == "yaskawa") return yaskawa_skeleton(statement, is_named);
   if (is_named)
     return without_targets(statement.substr(std::min(statement.find_first_not_of(" \t"), statement.size())),
                            move.arc.has_value());

@@ -18,7 +18,7 @@ const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry"
 
 const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc", "haas",
                                                 "mach3", "siemens",  "heidenhain", "kuka",  "abb",
-                                                "ur",    "apt",      "ls"};
+                                                "ur",    "apt",      "yaskawa",    "ls"};
 
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 

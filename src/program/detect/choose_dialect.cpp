@@ -40,7 +40,7 @@ const Dialect& dialect_of_robot(const RobotLanguage& language, const std::string
     throw InputError(
         ErrorKind::program_text, {file, 1, 1},
         fmt::format("this is a program in {}, which is not supported; post the job as KUKA KRL, ABB RAPID, "
-                    "URScript, APT, G-code, Siemens or Heidenhain program",
+                    "Yaskawa INFORM, URScript, APT, G-code, Siemens or Heidenhain program",
                     language.name));
   if (options.dialect != "auto" && options.dialect != language.dialect)
     throw InputError(ErrorKind::program_text, {file, 1, 1},

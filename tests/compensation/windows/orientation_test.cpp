@@ -201,6 +201,9 @@ struct Language {
   std::string (*statement)(const PathTarget&, bool rapid);
   std::regex target;
   Pose (*pose)(const std::array<double, 7>&);
+  /// Of a language with a list of targets above its statements: what is between them, and a statement.
+  const char* instructions = "";
+  std::string (*instruction)(std::size_t index, bool rapid) = nullptr;
 };
 
 Pose of_angles(const Vector3& p_mm, const Vector3& abc_deg) {
@@ -261,6 +264,21 @@ std::vector<Language> languages() {
          return Pose{Eigen::AngleAxisd(phi.norm(), phi.stableNormalized()).toRotationMatrix(),
                      Vector3(n[0], n[1], n[2])};
        }},
+      {"yaskawa", "/JOB\n//POS\n///NPOS 6,0,0,0,0,0\n///POSTYPE BASE\n///RECTAN\n", "END\n",
+       [](const PathTarget& t, bool) {
+         const auto index = static_cast<std::size_t>(&t - targets.data());
+         return fmt::format("C{:05}={:.6f},{:.6f},{:.6f},{:.6f},{:.6f},{:.6f}\n", index, t.p_mm.x(),
+                            t.p_mm.y(), t.p_mm.z(), t.abc_deg.x(), t.abc_deg.y(), t.abc_deg.z());
+       },
+       std::regex("C[0-9]+=" + number + "," + number + "," + number + "," + number + "," + number + "," +
+                  number),
+       [](const std::array<double, 7>& n) {
+         return of_angles({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
+       },
+       "//INST\nNOP\n",
+       [](std::size_t index, bool rapid) {
+         return fmt::format("{} C{:05} {}\n", rapid ? "MOVJ" : "MOVL", index, rapid ? "VJ=5.00" : "V=25.0");
+       }},
   };
 }
 
@@ -286,13 +304,16 @@ Pose corrected(const std::vector<Pose>& poses, const PathTarget& target) {
 
 }  // namespace
 
-TEST_CASE("one path in four languages has the same corrected targets, to the written digit") {
+TEST_CASE("one path in five languages has the same corrected targets, to the written digit") {
   std::vector<std::vector<Pose>> found;
   for (const Language& language : languages()) {
     CAPTURE(language.name);
     std::string text = language.head;
     for (std::size_t i = 0; i < targets.size(); ++i)
       text += language.statement(targets[i], i == 0 || i + 1 == targets.size());
+    text += language.instructions;
+    for (std::size_t i = 0; language.instruction != nullptr && i < targets.size(); ++i)
+      text += language.instruction(i, i == 0 || i + 1 == targets.size());
     Order order = turning_order(text + language.tail);
     order.X_MW = {};
     order.read.dialect = language.name;

@@ -25,7 +25,6 @@ std::string refusal_of_robot(const std::string& text, const std::string& dialect
 TEST_CASE("a robot program is refused with the name of its language, in any dialect option") {
   const std::pair<const char*, const char*> programs[] = {
       {"/PROG cub\n/ATTR\n", "FANUC TP (LS)"},
-      {"/JOB\n//NAME A\n", "Yaskawa INFORM (JBI)"},
   };
   for (const auto& [text, language] : programs)
     for (const char* dialect : {"auto", "heidenhain"}) {
@@ -79,5 +78,14 @@ TEST_CASE("APT is read, and refused in another dialect option") {
     CHECK(read_program(text, "job", options).dialect == "apt");
     CHECK(refusal_of_robot(text, "ur") ==
           "job:1:1: error: this is a program in APT, not in dialect 'ur'; use auto or apt");
+  }
+}
+
+TEST_CASE("a Yaskawa job is read, and refused in another dialect option") {
+  for (const char* text : {"/JOB\n//NAME A\n//POS\n//INST\nNOP\nEND\n", "/JOB\r\n//INST\r\nEND\r\n"}) {
+    CHECK(refusal_of_robot(text) == "");
+    CHECK(refusal_of_robot(text, "yaskawa") == "");
+    CHECK(refusal_of_robot(text, "kuka") ==
+          "job:1:1: error: this is a program in Yaskawa INFORM, not in dialect 'kuka'; use auto or yaskawa");
   }
 }
