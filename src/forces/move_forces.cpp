@@ -9,7 +9,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double middle = 0.5;
+constexpr double middle_of_move = 0.5;
 
 // Relative change along a piece that still counts as constant. Pieces of a turning wrench are linear to half
 // of this.
@@ -33,7 +33,7 @@ bool has_models(const ForceSource& source) {
 /// The model that acts in the middle of a move, or null.
 const CutResponse* model_of(const std::vector<ForceStretch>& stretches) {
   const auto at = std::find_if(stretches.begin(), stretches.end(),
-                               [](const ForceStretch& stretch) { return stretch.to > middle; });
+                               [](const ForceStretch& stretch) { return stretch.to > middle_of_move; });
   if (at == stretches.end() || at->rule == nullptr) return nullptr;
   return std::get_if<CutResponse>(&at->rule->content);
 }
@@ -88,7 +88,7 @@ class MoveForces {
         result.comment && !move.force->isZero(0) && (source_.scale != 1 || in_air(source_, move));
     const AxesAlong axes = axes_of_feed(i);
     take_wrenches(axes, segment, result);
-    if (coverage_ && !in_air(source_, move)) take_model(i, axes.at(middle, 1), result);
+    if (coverage_ && !in_air(source_, move)) take_model(i, axes.at(middle_of_move, 1), result);
     return result;
   }
 
@@ -115,9 +115,9 @@ class MoveForces {
     }
     if (!constant) result.steps.clear();
     result.changes = result.steps.size() != 1;
-    result.F = result.changes
-                   ? in_feed_frame(value_in_the_middle(pieces_, segment), axes.at(middle, 1), result.only_z)
-                   : result.steps.front().F;
+    result.F = result.changes ? in_feed_frame(value_in_the_middle(pieces_, segment),
+                                              axes.at(middle_of_move, 1), result.only_z)
+                              : result.steps.front().F;
   }
 
   /// The wrench of a piece in the feed frame, if it is constant.
@@ -138,7 +138,7 @@ class MoveForces {
     const CutResponse* response = model_of(coverage_->stretches(i));
     if (response == nullptr) return;
     const Segment& segment = path_.segments[i];
-    const double slope = direction_at(segment.wanted, middle).dot(axes.R_MF.col(2));
+    const double slope = direction_at(segment.wanted, middle_of_move).dot(axes.R_MF.col(2));
     const CutForce force = cutting_force(*response, segment.feed_m_s, result.spindle_rpm, slope);
     result.feed_per_tooth = force.feed_per_tooth;
     if (response->spindle_rpm > 0) result.spindle_rpm = response->spindle_rpm;

@@ -34,11 +34,25 @@ bool stands_alone(std::string_view name) {
   return within(number, 54, 59) || within(number, 500, 599);
 }
 
+/// Frames of robots: "UF 5" of FANUC, "BASE_DATA[1]" of KUKA. `name` is closed up.
+std::optional<std::string> robot_frame_name(std::string_view name) {
+  constexpr std::string_view frame = "UF", base = "BASE_DATA[";
+  constexpr int most = 99;
+  if (name.starts_with(frame)) {
+    const auto number = digits(name.substr(frame.size()));
+    if (within(number, 0, most)) return "UF " + std::to_string(*number);
+  }
+  if (!name.starts_with(base) || !name.ends_with(']')) return std::nullopt;
+  const auto number = digits(name.substr(base.size(), name.size() - base.size() - 1));
+  return within(number, 1, most) ? std::optional("BASE_DATA[" + std::to_string(*number) + ']') : std::nullopt;
+}
+
 }  // namespace
 
 std::optional<std::string> work_offset_name(std::string_view text) {
   const std::string name = closed_up(text);
   if (stands_alone(name)) return name;
+  if (auto frame = robot_frame_name(name)) return frame;
   const std::size_t p = name.find('P');
   if (p == std::string::npos) return std::nullopt;
   const auto page = digits(std::string_view(name).substr(p + 1));

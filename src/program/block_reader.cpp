@@ -5,6 +5,7 @@
 
 #include "counterflex/program/program_reader.hpp"
 #include "program/apt/reader.hpp"
+#include "program/fanuc/reader.hpp"
 #include "program/gcode/line_reader.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/klartext/reader.hpp"
@@ -103,6 +104,8 @@ std::unique_ptr<BlockReader> make_reader(const std::string& file, const ReadOpti
     return std::make_unique<AptReader>(file, options, dialect, std::move(outline));
   if (dialect.name == yaskawa_name)
     return std::make_unique<YaskawaReader>(file, options, dialect, std::move(outline));
+  if (dialect.name == tp_name)
+    return std::make_unique<FanucReader>(file, options, dialect, std::move(outline));
   return std::make_unique<LineReader>(file, options, dialect, std::move(outline));
 }
 

@@ -84,10 +84,11 @@ constexpr Dialect kuka = robot_language(kuka_name);
 constexpr Dialect abb = robot_language(abb_name);
 constexpr Dialect ur = robot_language(ur_name);
 constexpr Dialect apt = robot_language(apt_name);
+constexpr Dialect tp = robot_language(tp_name);
 constexpr Dialect yaskawa = robot_language(yaskawa_name);
 
-constexpr std::array dialects{&linuxcnc,   &grbl, &fanuc, &haas, &mach3, &siemens,
-                              &heidenhain, &kuka, &abb,   &ur,   &apt,   &yaskawa};
+constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain,
+                              &kuka,     &abb,  &ur,    &apt,  &tp,    &yaskawa};
 
 }  // namespace
 

@@ -68,9 +68,10 @@ struct Dialect {
 /// The name of Heidenhain Klartext, which is not G-code.
 inline constexpr std::string_view klartext_name = "heidenhain";
 
-/// The names of robot languages: KUKA KRL, ABB RAPID, URScript of Universal Robots, APT, Yaskawa INFORM.
+/// The names of robot languages: KUKA KRL, ABB RAPID, URScript of Universal Robots, APT, FANUC TP, Yaskawa
+/// INFORM.
 inline constexpr std::string_view kuka_name = "kuka", abb_name = "abb", ur_name = "ur", apt_name = "apt",
-                                  yaskawa_name = "yaskawa";
+                                  tp_name = "fanuc_tp", yaskawa_name = "yaskawa";
 
 inline constexpr char comment_open = '(';
 inline constexpr char comment_close = ')';

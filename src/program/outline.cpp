@@ -82,7 +82,7 @@ void OutlineScan::add(std::string_view blocks) {
     add_krl(blocks);
   else if (dialect_.name == abb_name)
     rapid_.add(blocks);
-  else if (dialect_.name == ur_name || dialect_.name == yaskawa_name)
+  else if (dialect_.name == ur_name || dialect_.name == tp_name || dialect_.name == yaskawa_name)
     outline_.named_targets = true;  // blend radii of UR depend on the moves beside them, too
   else if (dialect_.name == apt_name)
     outline_.tool_axes = outline_.tool_axes || gives_tool_axes(blocks);

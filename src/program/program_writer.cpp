@@ -2,6 +2,7 @@
 
 #include "program/apt/writer.hpp"
 #include "program/dialect.hpp"
+#include "program/fanuc/writer.hpp"
 #include "program/klartext/write/writer.hpp"
 #include "program/kuka/writer.hpp"
 #include "program/rapid/writer.hpp"
@@ -17,6 +18,7 @@ std::unique_ptr<ProgramWriter> make_writer(const Program& window, const WriteOpt
   if (window.dialect == abb_name) return std::make_unique<RapidWriter>(window, options);
   if (window.dialect == ur_name) return std::make_unique<UrWriter>(window, options);
   if (window.dialect == apt_name) return std::make_unique<AptWriter>(window, options);
+  if (window.dialect == tp_name) return std::make_unique<FanucWriter>(window, options);
   if (window.dialect == yaskawa_name) return std::make_unique<YaskawaWriter>(window, options);
   return std::make_unique<GcodeWriter>(window, options);
 }

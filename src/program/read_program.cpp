@@ -4,6 +4,7 @@
 #include "program/block_reader.hpp"
 #include "program/detect/choose_dialect.hpp"
 #include "program/expand/expand.hpp"
+#include "program/fanuc/reader.hpp"
 #include "program/klartext/expand.hpp"
 #include "program/klartext/reader.hpp"
 #include "program/kuka/lex.hpp"
@@ -39,6 +40,7 @@ bool is_corrected(const Program& program) {
   if (program.dialect == abb_name) return is_corrected_robot_program(program.text, rapid_comment);
   if (program.dialect == ur_name) return is_corrected_robot_program(program.text, ur_comment);
   if (program.dialect == apt_name) return is_corrected_robot_program(program.text, apt_comment);
+  if (program.dialect == tp_name) return is_corrected_tp_program(program.text);
   if (program.dialect == yaskawa_name) return is_corrected_job(program.text);
   const Dialect& dialect = *find_dialect(program.dialect);
   Block block;

@@ -179,7 +179,7 @@ TEST_CASE("an O-number means fanuc, other programs are linuxcnc") {
   CHECK(diagnostic_of([] { read("G21\n", "siemens5"); }) ==
         "p.ngc: error: unknown dialect 'siemens5'; use one of auto, linuxcnc, grbl, fanuc, haas, mach3, "
         "siemens, "
-        "heidenhain, kuka, abb, ur, apt, yaskawa");
+        "heidenhain, kuka, abb, ur, apt, fanuc_tp, yaskawa");
 }
 
 TEST_CASE("integer words are in units by default, and increments with the option") {

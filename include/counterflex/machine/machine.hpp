@@ -288,12 +288,14 @@ std::string stiffness_phrase(const Tool& tool);
 
 // Names of work offsets.
 
-/// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3", "G154 P12", "G505"), of one that may be
-/// in lower case, lack the blank before P or have zeros before the number; none for other text.
+/// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3", "G154 P12", "G505", "UF 5",
+/// "BASE_DATA[1]"), of one that may be in lower case, lack the blank before P or have zeros before the
+/// number; none for other text.
 std::optional<std::string> work_offset_name(std::string_view text);
 
 /// What `work_offset_name` takes, for diagnostics.
 inline constexpr std::string_view work_offset_names =
-    "G54 to G59, G59.1 to G59.3, G54.1 P1 to P300, G154 P1 to P99 and G500 to G599";
+    "G54 to G59, G59.1 to G59.3, G54.1 P1 to P300, G154 P1 to P99, G500 to G599, UF 0 to UF 99 and "
+    "BASE_DATA[1] to BASE_DATA[99]";
 
 }  // namespace counterflex

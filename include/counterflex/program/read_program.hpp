@@ -11,10 +11,11 @@
 namespace counterflex {
 
 struct ReadOptions {
-  /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, yaskawa. auto
-  /// inspects the first megabyte: BEGIN PGM means heidenhain; DEF NAME( ) means kuka; MODULE means abb; def
-  /// NAME( ): means ur; PARTNO or GOTO/ means apt; /JOB means yaskawa; words of a Sinumerik mean siemens; an
-  /// O-number or a name behind '%' means fanuc, or haas or mach3 if only they know all codes. All other
+  /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, fanuc_tp, yaskawa.
+  /// auto inspects the first megabyte: BEGIN PGM means heidenhain; DEF NAME( ) means kuka; MODULE means abb;
+  /// def NAME( ): means ur; PARTNO or GOTO/ means apt; /PROG means fanuc_tp; /JOB means yaskawa; words of a
+  /// Sinumerik mean siemens; an O-number or a name behind '%' means fanuc, or haas or mach3 if only they know
+  /// all codes. All other
   /// programs are linuxcnc, or mach3 if only mach3 knows all codes, or grbl if a comment names it.
   std::string dialect = "auto";
   std::optional<LengthUnit> unit;  ///< used if the program has no G20 or G21 before its first move
@@ -34,12 +35,6 @@ struct ReadOptions {
   bool expand_subprograms = false;
 };
 
-/// The dialect is unknown, or programs in it are not read (ErrorKind::usage).
-class UnknownDialect : public InputError {
- public:
-  using InputError::InputError;
-};
-
 /// Whether `dialect` is the language of a robot.
 bool is_robot_dialect(const std::string& dialect);
 
@@ -48,8 +43,8 @@ std::optional<std::string> unknown_dialect(const std::string& dialect);
 
 /// Reads `text` and keeps every byte. `file` is its name in diagnostics. Throws `InputError` with line and
 /// column for invalid text and for words that are not supported (ErrorKind::program_text;
-/// ErrorKind::machine_or_force for a FORCE comment). No word is ignored silently. Throws `UnknownDialect` if
-/// the dialect does not exist.
+/// ErrorKind::machine_or_force for a FORCE comment; ErrorKind::usage for an unknown dialect). No word is
+/// ignored silently.
 Program read_program(std::string text, const std::string& file, const ReadOptions& options);
 
 /// The first word without a decimal point in the moves up to `line` that may mean units or increments, with a

@@ -232,9 +232,9 @@ Checked check_program(const std::string& path, const Options& options, const Mac
       check_reach(facts.overview, ProgramReader(file.bytes, name, read), *machine, lengths, checked, console);
     file.bytes.refuse_change();  // the file was read more than once
     return checked;
-  } catch (const InputError& error) {
+  } catch (const InputError&) {
     file.bytes.refuse_change();  // a file replaced while it was read has errors of its own
-    blame_dialect(error, options, of, name);
+    throw;
   }
 }
 

@@ -59,7 +59,7 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
               {},
               {},
               {}};
-  run.scan = scan_program(options, run.file, run.read, nullptr);
+  run.scan = scan_program(options, run.file, run.read);
   run.force_input = read_force_input(options);
   run.work = place_work(options.work, run.scan.program);
   settle_forces({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},

@@ -21,19 +21,15 @@ CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadO
                              ProgramFile& file, RunTally& tally) {
   const std::string name = shown_name(options.verify.corrected);
   CorrectedScan scan;
-  try {
-    file.bytes.hash_along();
-    ProgramReader reader(file.bytes, name, read);
-    bool begun = false;
-    while (reader.next()) {
-      Program& window = reader.window();
-      if (!std::exchange(begun, true)) scan.beginning = window.text;
-      ignore_axes(window, run.ignored);
-      add_window(scan.program, window);
-      tally.add_corrected(window);
-    }
-  } catch (const InputError& error) {
-    blame_dialect(error, options, &run.machine.machine, name);
+  file.bytes.hash_along();
+  ProgramReader reader(file.bytes, name, read);
+  bool begun = false;
+  while (reader.next()) {
+    Program& window = reader.window();
+    if (!std::exchange(begun, true)) scan.beginning = window.text;
+    ignore_axes(window, run.ignored);
+    add_window(scan.program, window);
+    tally.add_corrected(window);
   }
   file.file.sha256 = sha256(file.bytes);
   return scan;

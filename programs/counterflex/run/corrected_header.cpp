@@ -32,15 +32,15 @@ std::string beginning_of(const std::string& path) {
 
 /// The digits of the hashes in the lines "COUNTERFLEX 1 KEY HASH" of a header, in lower case.
 std::vector<std::string> digits_of(const std::string& header, std::string_view key) {
-  constexpr std::size_t count = 16;
+  constexpr std::size_t least = 10, most = 16;  // remarks of FANUC have room for 10
   const std::string mark = "COUNTERFLEX 1 " + std::string(key) + ' ';
   std::vector<std::string> all;
   for (std::size_t at = 0; (at = header.find(mark, at)) != std::string::npos;) {
     at += mark.size();
-    std::string digits = header.substr(at, count);
-    if (digits.size() != count ||
-        !std::ranges::all_of(digits, [](unsigned char c) { return std::isxdigit(c) != 0; }))
-      continue;
+    std::string digits = header.substr(at, most);
+    const auto end = std::ranges::find_if_not(digits, [](unsigned char c) { return std::isxdigit(c) != 0; });
+    digits.erase(end, digits.end());
+    if (digits.size() < least) continue;
     for (char& c : digits) c = static_cast<char>(std::tolower(static_cast<unsigned char>(c)));
     all.push_back(std::move(digits));
   }

@@ -150,17 +150,6 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   return read;
 }
 
-void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
-                   const std::string& program) {
-  const bool of_dialect = dynamic_cast<const UnknownDialect*>(&error) != nullptr;
-  const bool of_machine = of_dialect && machine != nullptr && !options.dialect;
-  if (!of_machine) throw;
-  throw InputError(
-      ErrorKind::program_text, {program},
-      fmt::format("the machine file's dialect \"{}\" is not supported yet; choose another with --dialect",
-                  machine->control.dialect));
-}
-
 std::vector<std::string> files_of_program(const std::string& path,
                                           const std::vector<std::string>& data_lists) {
   std::vector<std::string> files{path};

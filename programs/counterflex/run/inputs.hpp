@@ -65,11 +65,6 @@ ProgramFile open_program(const std::string& role, const std::string& path,
 std::vector<std::string> files_of_program(const std::string& path,
                                           const std::vector<std::string>& data_lists);
 
-/// Rethrows `error` of a program's reader. An unknown dialect that comes from `machine` becomes an error of
-/// the machine file. Called in its handler.
-[[noreturn]] void blame_dialect(const InputError& error, const Options& options, const Machine* machine,
-                                const std::string& program);
-
 /// Warns of the reader's remarks and of blocks that are not corrected, in the words of `command`.
 void warn_of(const Overview& program, Command command, Console& console);
 

@@ -28,7 +28,7 @@ bool has_logs(const ForceSource& source) {
 }  // namespace
 
 ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOptions& read,
-                         const Machine* machine, const std::function<void(const Program&)>& also) {
+                         const std::function<void(const Program&)>& also) {
   const std::string name = shown_name(options.program);
   ProgramScan scan;
   try {
@@ -41,9 +41,9 @@ ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOp
     };
     for_each_window(
         reader, also ? options.threads : 1, first, also ? also : [](const Program&) {});
-  } catch (const InputError& error) {
+  } catch (const InputError&) {
     file.bytes.refuse_change();  // a file replaced while it was read has errors of its own
-    blame_dialect(error, options, machine, name);
+    throw;
   }
   if (file.data_lists.empty()) file.file.sha256 = sha256(file.bytes);
   file.bytes.rewind();

@@ -20,7 +20,7 @@ struct ProgramScan {
 /// Reads the program to its end once and computes its hash. Calls `also` for each window while the next ones
 /// are read. Throws `InputError`.
 ProgramScan scan_program(const Options& options, ProgramFile& file, const ReadOptions& read,
-                         const Machine* machine, const std::function<void(const Program&)>& also = {});
+                         const std::function<void(const Program&)>& also = {});
 
 /// A program whose path is built window by window. Keeps references to all arguments.
 struct PathInput {

@@ -203,7 +203,7 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->read = read_options(options, &on, run->tools);
   ForcePrescan forces(options, on, run->force_input);
   PathPlaces places;
-  ProgramScan scan = scan_program(options, run->file, run->read, &on, [&](const Program& window) {
+  ProgramScan scan = scan_program(options, run->file, run->read, [&](const Program& window) {
     forces.add(window);
     places.add(window);
     if (options.number_pieces) run->numbers.add(window.text);

@@ -104,8 +104,8 @@ const std::array option_table{
         }},
     SettingOption{
         "dialect", "--dialect", "NAME", group::reading,
-        "The control: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt or "
-        "yaskawa (default: of the machine file, or auto)",
+        "The control: auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, "
+        "fanuc_tp or yaskawa (default: of the machine file, or auto)",
         "", false, take_dialect},
     SettingOption{"units", "--units", "mm|inch", group::common, "Units before the program states its own", "",
                   false, take_units},

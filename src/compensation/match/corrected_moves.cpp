@@ -41,18 +41,28 @@ std::string statement_of(const Program& program, std::string_view line, bool& se
   return statement;
 }
 
-// The line from byte `begin` on without `spans`, of which `next` is the first that may be in the line.
+// The line from byte `begin` on without `spans`, of which `next` is the first that may be in the line. A span
+// may have several lines.
 std::string without(const std::vector<Span>& spans, const std::string& text, std::string_view line,
                     std::size_t begin, std::size_t& next) {
   std::string rest;
   std::size_t at = begin;
   const std::size_t end = begin + line.size();
-  for (; next < spans.size() && spans[next].begin < end; ++next) {
-    if (spans[next].begin < at) continue;
-    rest.append(text, at, spans[next].begin - at);
-    at = spans[next].end;
+  for (; next < spans.size() && spans[next].begin <= end; ++next) {
+    const Span span = spans[next];
+    if (span.begin > at) rest.append(text, at, span.begin - at);
+    at = std::max(at, std::min(span.end, end));
+    if (span.end > end) break;
   }
   return rest.append(text, at, end - at);
+}
+
+// Whether one of the spans `first` to `last` has a part of the line from byte `begin` on.
+bool touches(const std::vector<Span>& spans, std::size_t first, std::size_t last, std::string_view line,
+             std::size_t begin) {
+  for (std::size_t i = first; i <= last && i < spans.size(); ++i)
+    if (spans[i].begin <= begin + line.size() && spans[i].end > begin) return true;
+  return false;
 }
 
 // The numbers of targets that are in other lines than their moves, in the order of the text.
@@ -147,12 +157,21 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       counts[order[next_move++]] = count_;
     if (moves) {
       end_statement();
+      // A statement may continue in further lines.
+      while (begin < window.moves[order[next_move - 1]].block.end) {
+        begin = std::min(text.find('\n', begin), text.size()) + 1;
+        ++lines_before_;
+      }
       continue;
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (siemens && calls_modal_cycle(line)) continue;
-    const std::string counted = without(window.counts, window.text, line, line_begin, next_count);
-    if (counted.empty() && !line.empty()) continue;  // targets of moves, which judge them
+    const std::size_t first_count = next_count;
+    std::string counted = without(window.counts, window.text, line, line_begin, next_count);
+    // A target of moves may have lines of its own.
+    const bool of_target = counted.find_first_not_of(" \t") == std::string::npos &&
+                           touches(window.counts, first_count, next_count, line, line_begin);
+    if (of_target) continue;
     std::string statement = statement_of(window, counted, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     const bool ends = !klartext || !continues(statement);

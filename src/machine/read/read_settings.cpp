@@ -16,9 +16,9 @@ namespace {
 
 const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry", "rz"};
 
-const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc", "haas",
-                                                "mach3", "siemens",  "heidenhain", "kuka",  "abb",
-                                                "ur",    "apt",      "yaskawa",    "ls"};
+const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc",  "haas",
+                                                "mach3", "siemens",  "heidenhain", "kuka",   "abb",
+                                                "ur",    "apt",      "fanuc_tp",   "yaskawa"};
 
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 

@@ -36,12 +36,6 @@ const Dialect& detect_dialect_of_file(std::string_view text, std::string_view fi
 
 const Dialect& dialect_of_robot(const RobotLanguage& language, const std::string& file,
                                 const ReadOptions& options) {
-  if (language.dialect.empty())
-    throw InputError(
-        ErrorKind::program_text, {file, 1, 1},
-        fmt::format("this is a program in {}, which is not supported; post the job as KUKA KRL, ABB RAPID, "
-                    "Yaskawa INFORM, URScript, APT, G-code, Siemens or Heidenhain program",
-                    language.name));
   if (options.dialect != "auto" && options.dialect != language.dialect)
     throw InputError(ErrorKind::program_text, {file, 1, 1},
                      fmt::format("this is a program in {}, not in dialect '{}'; use auto or {}",
@@ -68,7 +62,7 @@ const Dialect& choose_dialect(std::string_view text, const std::string& file, co
             machine));
   if (options.dialect == "auto") return detect_dialect_of_file(beginning(text), file);
   if (const auto problem = unknown_dialect(options.dialect))
-    throw UnknownDialect(ErrorKind::usage, {file}, *problem);
+    throw InputError(ErrorKind::usage, {file}, *problem);
   return *find_dialect(options.dialect);
 }
 

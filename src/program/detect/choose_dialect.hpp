@@ -13,8 +13,8 @@ namespace counterflex {
 inline constexpr std::size_t bytes_of_dialect = 1 << 20;
 
 /// The dialect of `options`. For auto, the beginning of `text` and the extension of the file name decide:
-/// .mpf and .spf are Siemens programs, .h is Klartext if the text begins like Klartext. Throws
-/// `UnknownDialect` if the dialect does not exist.
+/// .mpf and .spf are Siemens programs, .h is Klartext if the text begins like Klartext. Throws if
+/// the dialect does not exist (ErrorKind::usage).
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options);
 
 /// Axes whose position is unknown after a tool change.

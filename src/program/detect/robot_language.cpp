@@ -64,7 +64,7 @@ bool begins_like_apt(std::string_view line) {
 
 constexpr RobotLanguage krl_language{"KUKA KRL", kuka_name}, rapid_language{"ABB RAPID", abb_name},
     urscript_language{"URScript", ur_name}, apt_language{"APT", apt_name},
-    inform_language{"Yaskawa INFORM", yaskawa_name};
+    tp_language{"FANUC TP (LS)", tp_name}, inform_language{"Yaskawa INFORM", yaskawa_name};
 
 RobotLanguage language_of(std::string_view line) {
   if (line.size() > 1 && line[0] == '&' && std::isalpha(static_cast<unsigned char>(line[1])) != 0)
@@ -76,7 +76,7 @@ RobotLanguage language_of(std::string_view line) {
     return urscript_language;
   if (begins_with_call(line, {"movej", "movel", "movep", "set_tcp"})) return urscript_language;
   if (line == "%%%" || begins_with(line, "MODULE", true)) return rapid_language;
-  if (begins_with(line, "/PROG", true)) return {"FANUC TP (LS)"};
+  if (begins_with(line, "/PROG", true)) return tp_language;
   if (begins_with(line, "/JOB", true)) return inform_language;
   if (begins_with(line, "PARTNO", true) || begins_like_apt(line)) return apt_language;
   return {};

@@ -144,6 +144,10 @@ void RobotWriter::change_target(const Program& program, const Move& move, const 
     change(move.orientation->words[i], numbers.orientation[i]);
 }
 
+std::string RobotWriter::header_text(const std::string& line) const {
+  return std::string(comment_mark_).append(" ").append(line).append(line_end_);
+}
+
 void RobotWriter::shift_statement(const Program&, const Move&, const Vector3&,
                                   std::vector<TextChange>&) const {}
 
@@ -198,8 +202,7 @@ void RobotWriter::add_header(Output& o) const {
   if (options_.header.empty()) return;
   const std::size_t position = header_position(o.program);
   std::string text;
-  for (const std::string& line : options_.header)
-    text.append(comment_mark_).append(" ").append(comment_text(line)).append(line_end_);
+  for (const std::string& line : options_.header) text += header_text(comment_text(line));
   const std::string_view before = std::string_view(o.program.text).substr(0, position);
   if (position > byte_order_mark(before) && before.back() != '\n') text.insert(0, line_end_);
   o.changes.push_back({{position, position}, std::move(text)});

@@ -39,6 +39,9 @@ class RobotWriter : public ProgramWriter {
   /// Position of the header: at the begin of a line, or at the end of the text.
   virtual std::size_t header_position(const Program& program) const = 0;
 
+  /// A line of the header with its line end. The default is a comment.
+  virtual std::string header_text(const std::string& line) const;
+
   /// Appends the changes that give the target of `move` these numbers. The default changes the words in their
   /// places; the target must have all of them.
   virtual void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,

@@ -20,8 +20,8 @@ const char* const cut_lists[] = {
     "G3 X0 Y20 Z-4 I0 J10 P3\nG1 X30\nG0 Z10 M9\nG0 X0\nG1 Z-1\nX44\n",
 };
 
-Shop shop_for(const std::string& cut, const ForceSource& force, double tolerance) {
-  Order order{.machine = load_machine(small_mill), .text = rapid_and_plunge + cut + "M30\n", .force = force};
+Shop shop_for(const std::string& cut, const ForceSource& source, double tolerance) {
+  Order order{.machine = load_machine(small_mill), .text = rapid_and_plunge + cut + "M30\n", .force = source};
   order.tolerance = tolerance;
   return Shop(order);
 }

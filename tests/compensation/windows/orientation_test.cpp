@@ -197,7 +197,8 @@ Eigen::Quaterniond quaternion(const PathTarget& t) {
 
 /// A language: how it writes a target, and how this test finds the numbers of one in a text.
 struct Language {
-  const char *name, *head, *tail;
+  const char *name, *head;
+  std::string tail;
   std::string (*statement)(const PathTarget&, bool rapid);
   std::regex target;
   Pose (*pose)(const std::array<double, 7>&);
@@ -211,6 +212,20 @@ Pose of_angles(const Vector3& p_mm, const Vector3& abc_deg) {
 }
 
 const std::string number = "(-?[0-9.]+)";
+
+/// The positions of a FANUC program.
+std::string tp_positions_of_targets() {
+  std::string text = "/POS\n";
+  for (std::size_t i = 0; i < targets.size(); ++i) {
+    const PathTarget& t = targets[i];
+    text += fmt::format(
+        "P[{}]{{\n GP1:\n UF : 0, UT : 1, CONFIG : 'N U T, 0, 0, 0',\n X = {:.6f} mm, Y = {:.6f} mm, Z = "
+        "{:.6f} "
+        "mm,\n W = {:.6f} deg, P = {:.6f} deg, R = {:.6f} deg\n}};\n",
+        i + 1, t.p_mm.x(), t.p_mm.y(), t.p_mm.z(), t.abc_deg.x(), t.abc_deg.y(), t.abc_deg.z());
+  }
+  return text + "/END\n";
+}
 
 std::vector<Language> languages() {
   return {
@@ -263,6 +278,17 @@ std::vector<Language> languages() {
          const Vector3 phi(n[3], n[4], n[5]);
          return Pose{Eigen::AngleAxisd(phi.norm(), phi.stableNormalized()).toRotationMatrix(),
                      Vector3(n[0], n[1], n[2])};
+       }},
+      {"fanuc_tp", "/PROG part\n/MN\n", tp_positions_of_targets(),
+       [](const PathTarget& t, bool rapid) {
+         const auto i = &t - targets.data() + 1;
+         return fmt::format("{0}:{1} P[{0}] {2} ;\n", i, rapid ? "J" : "L",
+                            rapid ? "50% FINE" : "25mm/sec CNT100");
+       },
+       std::regex("X = +" + number + " mm, Y = +" + number + " mm, Z = +" + number + " mm,\n W = +" + number +
+                  " deg, P = +" + number + " deg, R = +" + number + " deg"),
+       [](const std::array<double, 7>& n) {
+         return of_angles({n[0], n[1], n[2]}, {n[3], n[4], n[5]});
        }},
       {"yaskawa", "/JOB\n//POS\n///NPOS 6,0,0,0,0,0\n///POSTYPE BASE\n///RECTAN\n", "END\n",
        [](const PathTarget& t, bool) {

@@ -22,19 +22,6 @@ std::string refusal_of_robot(const std::string& text, const std::string& dialect
 
 }  // namespace
 
-TEST_CASE("a robot program is refused with the name of its language, in any dialect option") {
-  const std::pair<const char*, const char*> programs[] = {
-      {"/PROG cub\n/ATTR\n", "FANUC TP (LS)"},
-  };
-  for (const auto& [text, language] : programs)
-    for (const char* dialect : {"auto", "heidenhain"}) {
-      const auto& shown = text;
-      CAPTURE(shown);
-      CHECK(refusal_of_robot(text, dialect)
-                .starts_with("job:1:1: error: this is a program in " + std::string(language)));
-    }
-}
-
 TEST_CASE("programs that begin like a robot's are read as G-code") {
   CHECK(refusal_of_robot("G21\nDEF REAL A1\nG1 X1 F100\n").starts_with("job:2:1: error: D has no number"));
   CHECK(refusal_of_robot("%\nO1001\nG21\nG0 X1\n%\n") == "");
@@ -68,6 +55,15 @@ TEST_CASE("URScript is read, and refused in another dialect option") {
     CHECK(refusal_of_robot(text, "ur") == "");
     CHECK(refusal_of_robot(text, "kuka") ==
           "job:1:1: error: this is a program in URScript, not in dialect 'kuka'; use auto or ur");
+  }
+}
+
+TEST_CASE("FANUC TP is read, and refused in another dialect option") {
+  for (const char* text : {"/PROG cub\n/ATTR\n/MN\n/POS\n/END\n", "/PROG  A\r\n/MN\r\n/POS\r\n/END"}) {
+    CHECK(refusal_of_robot(text) == "");
+    CHECK(refusal_of_robot(text, "fanuc_tp") == "");
+    CHECK(refusal_of_robot(text, "fanuc") ==
+          "job:1:1: error: this is a program in FANUC TP (LS), not in dialect 'fanuc'; use auto or fanuc_tp");
   }
 }
 

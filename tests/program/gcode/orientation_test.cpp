@@ -9,7 +9,7 @@ using namespace counterflex::test;
 
 namespace {
 
-constexpr char text[] =
+constexpr char turning_program[] =
     "G21 G90 G0 X0. Y0. Z0. A0. B0. C350.\n"
     "G1 X10. C370. F600\n"
     "Y5.\n"
@@ -28,7 +28,7 @@ MoveEdit edit_of(const Program& program, std::size_t move) {
 }  // namespace
 
 TEST_CASE("A, B and C of a six-axis machine are read as the tool's orientation") {
-  const Program program = read_turning(text);
+  const Program program = read_turning(turning_program);
   REQUIRE(program.moves.size() == 5);
   CHECK(program.left_alone.empty());
   CHECK(!all_known(program.moves[0].known_start));
@@ -60,20 +60,20 @@ TEST_CASE("cycles and cutter compensation are refused in a program that turns th
 }
 
 TEST_CASE("on other machines a word of A, B or C that is not zero ends correction") {
-  const Program program = read_program(text, "six.ngc", {.dialect = "linuxcnc"});
+  const Program program = read_program(turning_program, "six.ngc", {.dialect = "linuxcnc"});
   CHECK(program.left_alone.size() == 1);
   CHECK(!program.moves[1].orientation);
 }
 
 TEST_CASE("an orientation that does not change leaves every byte") {
-  const Program program = read_turning(text);
+  const Program program = read_turning(turning_program);
   std::vector<MoveEdit> edits;
   for (std::size_t m = 0; m < program.moves.size(); ++m) edits.push_back(edit_of(program, m));
-  CHECK(rewrite(program, edits, {}).text == text);
+  CHECK(rewrite(program, edits, {}).text == turning_program);
 }
 
 TEST_CASE("angles are changed, inserted where the block has none, and kept where they are right") {
-  const Program program = read_turning(text);
+  const Program program = read_turning(turning_program);
   MoveEdit first = edit_of(program, 1), second = edit_of(program, 2), third = edit_of(program, 3);
   const MoveEdit last = edit_of(program, 4);
   first.orientation = OrientationNumbers{0.0123, 0, 370.00004};
@@ -88,7 +88,7 @@ TEST_CASE("angles are changed, inserted where the block has none, and kept where
 }
 
 TEST_CASE("points inserted into a move carry their angles") {
-  const Program program = read_turning(text);
+  const Program program = read_turning(turning_program);
   MoveEdit edit = edit_of(program, 1);
   edit.inserted = {{{5, 0.01, 0}, {}, OrientationNumbers{0, 0, 360.01}}};
   CHECK(rewrite(program, {edit}, {}).text ==
