@@ -135,7 +135,8 @@ Matrix3 orientation_at(const Turn& turn, double u) {
   if (u == 0) return turn.start;
   if (u == 1) return turn.end;
   if (const auto& angles = turn.angles)
-    return angles->outer * rotation_of_angles(angles->start_deg + u * (angles->end_deg - angles->start_deg));
+    return angles->outer * rotation_of_angles(angles->start_deg + u * (angles->end_deg - angles->start_deg)) *
+           angles->inner;
   if (const auto& outer = turn.axis_in)
     return *outer *
            rotation_of_axis(outer->transpose() * axis_between(turn.start.col(2), turn.end.col(2), u));
@@ -161,6 +162,31 @@ Turn operator*(const Matrix3& R_AB, const Turn& turn) {
   if (turned.angles) turned.angles->outer = R_AB * turned.angles->outer;
   if (turned.axis_in) turned.axis_in = R_AB * *turned.axis_in;
   return turned;
+}
+
+// A control that knows only the tool axis writes the direction to the spindle: T is C there.
+Turn operator*(const Turn& turn, const Matrix3& R_CT) {
+  Turn turned{turn.start * R_CT, turn.end * R_CT, turn.angles, turn.axis_in};
+  if (turned.angles) turned.angles->inner = turned.angles->inner * R_CT;
+  return turned;
+}
+
+Matrix3 tool_axes(SpindleAxis axis) {
+  switch (axis) {
+    case SpindleAxis::z:
+      break;
+    case SpindleAxis::minus_z:
+      return Vector3(1, -1, -1).asDiagonal();
+    case SpindleAxis::x:
+      return (Matrix3() << 0, 0, 1, 0, 1, 0, -1, 0, 0).finished();
+    case SpindleAxis::minus_x:
+      return (Matrix3() << 0, 0, -1, 0, 1, 0, 1, 0, 0).finished();
+    case SpindleAxis::y:
+      return (Matrix3() << 1, 0, 0, 0, 0, 1, 0, -1, 0).finished();
+    case SpindleAxis::minus_y:
+      return (Matrix3() << 1, 0, 0, 0, 0, -1, 0, 1, 0).finished();
+  }
+  return Matrix3::Identity();
 }
 
 }  // namespace counterflex

@@ -76,16 +76,12 @@ constexpr Dialect heidenhain{.name = klartext_name,
                              .radius_room = {0.016},
                              .radius_room_inch = {0.016}};
 
-/// Robot languages.
-constexpr Dialect robot_language(std::string_view name) {
-  return {.name = name, .robot = true, .family = 0};
+constexpr Dialect robot(std::string_view name, std::string_view language) {
+  return {.name = name, .language = language, .family = 0};
 }
-constexpr Dialect kuka = robot_language(kuka_name);
-constexpr Dialect abb = robot_language(abb_name);
-constexpr Dialect ur = robot_language(ur_name);
-constexpr Dialect apt = robot_language(apt_name);
-constexpr Dialect tp = robot_language(tp_name);
-constexpr Dialect yaskawa = robot_language(yaskawa_name);
+constexpr Dialect kuka = robot(kuka_name, "KUKA KRL"), abb = robot(abb_name, "ABB RAPID"),
+                  ur = robot(ur_name, "URScript"), apt = robot(apt_name, "APT"),
+                  tp = robot(tp_name, "FANUC TP (LS)"), yaskawa = robot(yaskawa_name, "Yaskawa INFORM");
 
 constexpr std::array dialects{&linuxcnc, &grbl, &fanuc, &haas, &mach3, &siemens, &heidenhain,
                               &kuka,     &abb,  &ur,    &apt,  &tp,    &yaskawa};
@@ -98,9 +94,13 @@ const Dialect* find_dialect(std::string_view name) {
   return nullptr;
 }
 
-bool is_robot_dialect(const std::string& dialect) {
+std::string_view robot_language_of(std::string_view dialect) {
   const Dialect* found = find_dialect(dialect);
-  return found != nullptr && found->robot;
+  return found != nullptr ? found->language : std::string_view{};
+}
+
+bool is_robot_dialect(std::string_view dialect) {
+  return !robot_language_of(dialect).empty();
 }
 
 std::string dialect_names() {

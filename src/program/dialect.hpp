@@ -37,7 +37,8 @@ inline bool radii_agree(const RadiusRoom& room, double start_mm, double end_mm) 
 
 struct Dialect {
   std::string_view name;
-  bool robot = false;  ///< a robot language, which has its own reader; no other member applies
+  /// "KUKA KRL": a robot language, which has its own reader; no member but the name applies. Else empty.
+  std::string_view language{};
   unsigned family = linuxcnc_family;
   std::size_t line_limit = 0;         ///< characters of a line; 0: no limit is known
   bool limit_counts_comments = true;  ///< whether blanks and comments count

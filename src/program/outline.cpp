@@ -71,7 +71,7 @@ bool jumps_in(std::string_view lines) {
 }  // namespace
 
 bool OutlineScan::may_find() const {
-  return dialect_.sinumerik_words || dialect_.name == klartext_name || dialect_.robot ||
+  return dialect_.sinumerik_words || dialect_.name == klartext_name || !dialect_.language.empty() ||
          (dialect_.family & (shop_families | mach3_family)) != 0;
 }
 

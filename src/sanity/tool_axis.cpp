@@ -44,12 +44,13 @@ SanityCheck check_tool_axis(const std::vector<const Model*>& models, const std::
   const std::string angle =
       fmt::format("the angle from {} to the tool's z is {:.1f} deg", largest.z, largest.deg + 0.0);
   if (largest.deg > into_the_work && !allowed)
-    return {
-        "tool axis", SanityState::wrong,
-        fmt::format("the tool points into the work: {}, at most 90 deg is allowed; the tip's z must point "
-                    "from the tip to the spindle: turn [tool] by 180 deg about its x (rpy_deg), or give "
-                    "[tool] allow_inverted = true",
-                    angle)};
+    return {"tool axis", SanityState::wrong,
+            fmt::format(
+                "the tool points into the work: {}, at most 90 deg is allowed; the tip's z must point "
+                "from the tip to the spindle: turn [tool] by 180 deg about its x (rpy_deg), give [tool] "
+                "spindle_axis = \"-z\" if the control's tool frame points out of the tool, or allow_inverted "
+                "= true",
+                angle)};
   if (largest.deg >= far_from_upright && !turns_joints && !allowed)
     return {"tool axis", SanityState::doubtful,
             fmt::format("{}; on a machine of linear axes it is usually 0: check rpy_deg of [tool] and of the "

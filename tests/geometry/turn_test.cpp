@@ -93,7 +93,8 @@ TEST_CASE("angles that are interpolated go their own way, one rotation the short
   const Matrix3 R_start = rotation_of(Form::fixed_axes, {0, 0, 359.999}),
                 R_end = rotation_of(Form::fixed_axes, {0, 0, 0.001});
   const Turn one{R_start, R_end, {}};
-  const Turn angles{R_start, R_end, Turn::Angles{Matrix3::Identity(), {0, 0, 359.999}, {0, 0, 0.001}}};
+  const Turn angles{R_start, R_end,
+                    Turn::Angles{.start_deg = Vector3(0, 0, 359.999), .end_deg = Vector3(0, 0, 0.001)}};
   CHECK((orientation_at(one, 0.5) - Matrix3::Identity()).norm() < 1e-12);
   CHECK((orientation_at(angles, 0.5) - from_rpy({0, 0, pi})).norm() < 1e-12);
   CHECK(orientation_at(angles, 1) == R_end);
@@ -138,4 +139,30 @@ TEST_CASE("an axis turns in the plane of both ends") {
   CHECK((orientation_at(turn, 1 - 1e-9) - turn.end).norm() < 1e-8);
   const Matrix3 frame = exp_so3({0.3, 0.2, 0.1});
   CHECK((orientation_at(frame * turn, 0.3) - frame * orientation_at(turn, 0.3)).norm() < 1e-14);
+}
+
+TEST_CASE("z of the tool frame has the direction of the spindle in the control's tool frame") {
+  const std::pair<SpindleAxis, Vector3> axes[] = {
+      {SpindleAxis::z, Vector3(0, 0, 1)}, {SpindleAxis::minus_z, Vector3(0, 0, -1)},
+      {SpindleAxis::x, Vector3(1, 0, 0)}, {SpindleAxis::minus_x, Vector3(-1, 0, 0)},
+      {SpindleAxis::y, Vector3(0, 1, 0)}, {SpindleAxis::minus_y, Vector3(0, -1, 0)}};
+  for (const auto& [axis, direction] : axes) {
+    const Matrix3 R = tool_axes(axis);
+    CHECK(R.col(2) == direction);
+    CHECK(R.determinant() == 1);
+    CHECK(R * R.transpose() == Matrix3::Identity());
+  }
+}
+
+TEST_CASE("a frame that is fixed to a turning frame turns with it") {
+  const Matrix3 fixed = exp_so3({0.4, -0.7, 1.1});
+  Turn about_one_axis{exp_so3({0.1, 0.2, 0.3}), exp_so3({-0.5, 0.9, 0.1})}, by_angles = about_one_axis;
+  by_angles.angles = Turn::Angles{.start_deg = Vector3(10, 20, 30), .end_deg = Vector3(-40, 70, 200)};
+  for (const Turn& turn : {about_one_axis, by_angles})
+    for (const double u : {0.0, 0.2, 0.7, 1.0}) {
+      CHECK((orientation_at(turn * fixed, u) - orientation_at(turn, u) * fixed).norm() < 1e-14);
+      CHECK((orientation_at(stretch(turn * fixed, 0.1, 0.9), u) -
+             orientation_at(stretch(turn, 0.1, 0.9), u) * fixed)
+                .norm() < 1e-14);
+    }
 }

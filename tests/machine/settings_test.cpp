@@ -92,6 +92,16 @@ TEST_CASE("names that select no work offset are refused") {
   }
 }
 
+TEST_CASE("[tool] and [spindle] are frames of the control, whose spindle_axis points to the spindle") {
+  const std::string frames = "[tool]\nxyz_mm = [1, 2, 3]\nrpy_deg = [0, 90, 0]\n";
+  const Machine in_z = machine_with(frames + "[spindle]\nrpy_deg = [0, 0, 90]\n"),
+                in_x = machine_with(frames + "spindle_axis = \"-x\"\n[spindle]\nrpy_deg = [0, 0, 90]\n");
+  CHECK(in_x.X_PT.p == in_z.X_PT.p);
+  CHECK((in_x.X_PT.R.col(2) + in_z.X_PT.R.col(0)).norm() < 1e-15);
+  REQUIRE(in_x.X_PS);
+  CHECK((in_x.X_PS->R.col(2) + in_z.X_PS->R.col(0)).norm() < 1e-15);
+}
+
 TEST_CASE("tools have lengths, negative ones too, by number") {
   const Machine machine = machine_with("[tools.T3]\nlength_mm = 72.5\n[tools.12]\nlength_mm = -4\n");
   REQUIRE(machine.tools.size() == 2);

@@ -18,6 +18,13 @@ enum class OrientationForm : std::uint8_t {
   axis,
 };
 
+/// The direction from the tip to the spindle, in the tool frame of the control. In this library z of the tool
+/// frame has this direction.
+enum class SpindleAxis : std::uint8_t { z, minus_z, x, minus_x, y, minus_y };
+
+/// The rotation of this library's tool frame in that of the control, whose `axis` points to the spindle.
+Matrix3 tool_axes(SpindleAxis axis);
+
 /// Numbers of an orientation, three or four (quaternion); the rest are 0.
 using OrientationNumbers = std::array<double, 4>;
 
@@ -41,9 +48,10 @@ inline Vector3 tilt(const Vector3& turn, const Vector3& axis) {
 struct Turn {
   Matrix3 start = Matrix3::Identity(), end = Matrix3::Identity();
   /// A control that interpolates the angles of `fixed_axes` linearly, as LinuxCNC does: angles in degrees,
-  /// counted on beyond 360, in the frame `outer`. Else it turns about one axis, the shorter way.
+  /// counted on beyond 360, in the frame `outer`, of a frame in which the tool has the rotation `inner`. Else
+  /// it turns about one axis, the shorter way.
   struct Angles {
-    Matrix3 outer = Matrix3::Identity();
+    Matrix3 outer = Matrix3::Identity(), inner = Matrix3::Identity();
     Vector3 start_deg = Vector3::Zero(), end_deg = Vector3::Zero();
   };
   std::optional<Angles> angles{};
@@ -63,5 +71,8 @@ double angle_of(const Turn& turn);
 
 /// The turn in frame A of one given in frame B.
 Turn operator*(const Matrix3& R_AB, const Turn& turn);
+
+/// The turn of frame T, which is fixed to the turning frame C.
+Turn operator*(const Turn& turn, const Matrix3& R_CT);
 
 }  // namespace counterflex

@@ -16,6 +16,7 @@
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/pose.hpp"
+#include "counterflex/geometry/turn.hpp"
 
 namespace counterflex {
 
@@ -210,10 +211,12 @@ struct Gravity {
 
 struct Machine {
   std::string name;
-  std::vector<Component> controlled;       ///< as many as there are actuators, or none
-  std::optional<Pose> home_X_MP;           ///< required for more than one chain
-  Location home_at;                        ///< place of home in the file: [home], or else the first chain
-  Pose X_PT;                               ///< tool tip in the platform frame
+  std::vector<Component> controlled;  ///< as many as there are actuators, or none
+  std::optional<Pose> home_X_MP;      ///< required for more than one chain
+  Location home_at;                   ///< place of home in the file: [home], or else the first chain
+  Pose X_PT;                          ///< tool tip in the platform frame, z from the tip to the spindle
+  /// Of the control's tool frame, in which [tool] is given: T in it is `tool_axes(spindle_axis)`.
+  SpindleAxis spindle_axis = SpindleAxis::z;
   Location tool_at;                        ///< [tool] in the file; without it the file alone
   bool allows_inverted_tool = false;       ///< the tip's z may point into the work
   std::map<std::string, WorkOffset> work;  ///< by names that `work_offset_name` gives

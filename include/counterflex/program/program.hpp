@@ -159,11 +159,15 @@ struct MoveOrientation {
   OrientationForm form = OrientationForm::fixed_axes;
   bool by_angles = false;  ///< the control interpolates the angles; else it turns about one axis
   StatedTurns stated_turns = StatedTurns::none;  ///< by the target
+  SpindleAxis spindle_axis = SpindleAxis::z;     ///< of the tool frame that the numbers turn
   OrientationNumbers start{}, end{};
   std::array<PackedAxisWord, 4> words;  ///< of the block, by number
 };
 
-/// How the tool turns along the move.
+/// How the control's tool frame turns along the move.
+Turn written_turn_of(const MoveOrientation& orientation);
+
+/// How the tool frame with z from the tip to the spindle turns along the move.
 Turn turn_of(const MoveOrientation& orientation);
 
 /// The numbers that the original has at fraction `u` of the move.

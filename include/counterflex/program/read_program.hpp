@@ -31,12 +31,17 @@ struct ReadOptions {
   /// as the kinematics of a six-axis machine have it; else words of these axes that are not zero end
   /// correction.
   bool tool_orientation = false;
+  /// Of the control's tool frame, in which programs of robots and six-axis machines give orientations.
+  SpindleAxis spindle_axis = SpindleAxis::z;
   /// Replaces calls by M98, CALL LBL and O-words with plain numbers by the bodies.
   bool expand_subprograms = false;
 };
 
 /// Whether `dialect` is the language of a robot.
-bool is_robot_dialect(const std::string& dialect);
+bool is_robot_dialect(std::string_view dialect);
+
+/// The name of the language of a robot dialect, "KUKA KRL"; empty for other dialects.
+std::string_view robot_language_of(std::string_view dialect);
 
 /// Error text if `dialect` is not a known dialect; empty otherwise.
 std::optional<std::string> unknown_dialect(const std::string& dialect);

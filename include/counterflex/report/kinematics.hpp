@@ -31,6 +31,7 @@ struct KinematicsReport {
   std::string tool{};  ///< in the spindle, and its stiffness; empty: [tool]
   std::vector<Travel> travel;
   std::vector<KinematicPlace> places;
+  SpindleAxis spindle_axis = SpindleAxis::z;  ///< of the control's tool frame, whose orientation is printed
 };
 
 /// "counterflex-kinematics 1" (programs/guide/poses.md), indented by two spaces, one newline at the end.

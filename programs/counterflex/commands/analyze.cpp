@@ -147,7 +147,7 @@ std::optional<ErrorKind> run_analyze(const Options& options, Console& console) {
   const Model& model = tool ? with_tool : input.model;
   const std::string tool_text =
       tool ? fmt::format("tool T{}: {}", tool->first, stiffness_phrase(tool->second)) : "";
-  if (kinematics) return run_kinematics(options, model, tool_text, console);
+  if (kinematics) return run_kinematics(options, model, input.machine.spindle_axis, tool_text, console);
   const std::vector<Pose> wanted = wanted_poses(options, model);
   AnalysisReport report =
       analyze(model, wanted, load, options.method, version, extras_of(options, input.model, model));

@@ -110,18 +110,30 @@ std::string offsets_text(const MoveFacts& facts) {
   return text.empty() ? "none selected" : text;
 }
 
+std::string language_text(const std::string& dialect) {
+  const std::string_view language = robot_language_of(dialect);
+  return language.empty() ? "dialect " + dialect : fmt::format("{}, dialect {}", language, dialect);
+}
+
+nlohmann::ordered_json language_json(const std::string& dialect) {
+  const std::string_view language = robot_language_of(dialect);
+  return language.empty() ? nlohmann::ordered_json(nullptr) : nlohmann::ordered_json(std::string(language));
+}
+
 std::string text_of(const ProgramFacts& facts) {
   const Overview& program = facts.overview;
   const MoveFacts& moves = facts.moves;
-  std::string text = row("file", program.file) + row("program", fmt::format("dialect {}", program.dialect));
+  std::string text = row("file", program.file) + row("program", language_text(program.dialect));
   text += row("units", units_text(moves));
-  text += row("blocks", fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.blocks,
-                                    program.moves, moves.feeds, moves.rapids));
+  const bool robot = is_robot_dialect(program.dialect);
+  text += row(robot ? "statements" : "blocks",
+              fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.blocks, program.moves,
+                          moves.feeds, moves.rapids));
   text +=
       row("cutting", fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.end.s / mm, facts.end.t));
   text += row("feeds", feeds_text(moves));
   text += row("extents", extents_text(moves));
-  text += row("offsets", offsets_text(moves));
+  text += row(robot ? "frames" : "offsets", offsets_text(moves));
   if (moves.with_force > 0)
     text += row("forces", fmt::format("FORCE comments act on {} moves", moves.with_force));
   if (facts.corrected) text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
@@ -140,12 +152,13 @@ nlohmann::ordered_json extent_json(double value) {
 nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   const Overview& program = facts.overview;
   const MoveFacts& moves = facts.moves;
-  nlohmann::ordered_json json{{"file", program.file},         {"kind", "program"},
-                              {"dialect", program.dialect},   {"units", units_text(moves)},
-                              {"corrected", facts.corrected}, {"blocks", program.blocks},
-                              {"moves", program.moves},       {"feeds", moves.feeds},
-                              {"rapids", moves.rapids},       {"cutting_mm", facts.end.s / mm},
-                              {"cutting_s", facts.end.t},     {"offsets", moves.offsets}};
+  nlohmann::ordered_json json{{"file", program.file},           {"kind", "program"},
+                              {"dialect", program.dialect},     {"language", language_json(program.dialect)},
+                              {"units", units_text(moves)},     {"corrected", facts.corrected},
+                              {"blocks", program.blocks},       {"moves", program.moves},
+                              {"feeds", moves.feeds},           {"rapids", moves.rapids},
+                              {"cutting_mm", facts.end.s / mm}, {"cutting_s", facts.end.t},
+                              {"offsets", moves.offsets}};
   auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
   for (int i = 0; i < 3; ++i)
     extents[std::string(1, "xyz"[i])] = {extent_json(moves.least[i]), extent_json(moves.most[i])};

@@ -62,17 +62,19 @@ bool asks_for_kinematics(const Options& options) {
   return true;
 }
 
-std::optional<ErrorKind> run_kinematics(const Options& options, const Model& model, const std::string& tool,
-                                        Console& console) {
+std::optional<ErrorKind> run_kinematics(const Options& options, const Model& model, SpindleAxis spindle_axis,
+                                        const std::string& tool, Console& console) {
   const AnalyzeOptions& analyze = options.analyze;
-  KinematicsReport report{version, model.mechanism.name, tool, model.mechanism.travel, {}};
+  KinematicsReport report{version, model.mechanism.name, tool, model.mechanism.travel, {}, spindle_axis};
   std::vector<std::string> asked;
   for (const std::string& text : analyze.joints) {
     report.places.push_back(place_at_values(model, shown_of(text, report.travel)));
     asked.push_back("--joints " + text);
   }
   for (const std::string& text : analyze.poses) {
-    report.places.push_back(place_at_tip(model, written_pose_of("--pose", text, writer_of(analyze))));
+    Pose X_MT = written_pose_of("--pose", text, writer_of(analyze));
+    X_MT.R = X_MT.R * tool_axes(spindle_axis);
+    report.places.push_back(place_at_tip(model, X_MT));
     asked.push_back("--pose " + text);
   }
   write_result(options.json ? to_json(report) : to_text(report));

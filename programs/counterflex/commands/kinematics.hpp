@@ -13,7 +13,7 @@ namespace counterflex::cli {
 bool asks_for_kinematics(const Options& options);
 
 /// Prints the places of --joints, then those of --pose. `tool`: the tool in the spindle, in words, or empty.
-std::optional<ErrorKind> run_kinematics(const Options& options, const Model& model, const std::string& tool,
-                                        Console& console);
+std::optional<ErrorKind> run_kinematics(const Options& options, const Model& model, SpindleAxis spindle_axis,
+                                        const std::string& tool, Console& console);
 
 }  // namespace counterflex::cli

@@ -139,6 +139,7 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   read.absolute_centres =
       options.absolute_centres.value_or(machine != nullptr && machine->control.absolute_centres);
   read.tool_orientation = machine != nullptr && controls_pose(*machine);
+  if (machine != nullptr) read.spindle_axis = machine->spindle_axis;
   read.evaluate = options.evaluate;
   read.expand_subprograms = options.expand_subprograms;
   read.tool_lengths_mm = tools.mm;

@@ -32,8 +32,7 @@ Curve command_of(const Job& job, const Move& move) {
 
 std::optional<Matrix3> orientation_of(const Job& job, const Move& move) {
   if (!move.orientation) return std::nullopt;
-  return Matrix3(job.path.frames[move.frame].X_MW.R *
-                 rotation_of(move.orientation->form, move.orientation->end));
+  return Matrix3(job.path.frames[move.frame].X_MW.R * orientation_at(turn_of(*move.orientation), 1));
 }
 
 std::optional<Turn> turn_of(const Job& job, const Move& move) {

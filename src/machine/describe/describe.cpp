@@ -30,9 +30,19 @@ std::string home_phrase(const Machine& machine) {
   return "reference point at " + phrase(*machine.home_X_MP);
 }
 
+/// `X_PT` with the axes of the control's tool frame.
+Pose in_axes_of_control(const Pose& X_PT, const Machine& machine) {
+  return {X_PT.R * tool_axes(machine.spindle_axis).transpose(), X_PT.p};
+}
+
 std::string tool_phrase(const Machine& machine) {
-  return is_identity(machine.X_PT) ? "tip at the reference point"
-                                   : "tip at " + phrase(machine.X_PT) + " from the platform";
+  constexpr std::string_view directions[] = {"z", "-z", "x", "-x", "y", "-y"};
+  const Pose X_PC = in_axes_of_control(machine.X_PT, machine);
+  std::string text =
+      is_identity(X_PC) ? "tip at the reference point" : "tip at " + phrase(X_PC) + " from the platform";
+  if (machine.spindle_axis != SpindleAxis::z)
+    text.append(", spindle in its ").append(directions[static_cast<std::size_t>(machine.spindle_axis)]);
+  return text;
 }
 
 std::string spindle_phrase(const Pose& X_PS) {
@@ -121,7 +131,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));
   if (!machine.gravity.g.isZero(0) || total_mass(machine) > 0) line("gravity", gravity_phrase(machine));
-  if (machine.X_PS) line("spindle", spindle_phrase(*machine.X_PS));
+  if (machine.X_PS) line("spindle", spindle_phrase(in_axes_of_control(*machine.X_PS, machine)));
   if (const std::string lengths = lengths_phrase(machine); !lengths.empty()) line("tools", lengths);
   for (const auto& [number, tool] : machine.tools)
     if (!is_length_alone(tool)) line(fmt::format("tool T{}", number), tool_phrase(tool));

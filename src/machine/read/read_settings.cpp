@@ -20,6 +20,9 @@ const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",    
                                                 "mach3", "siemens",  "heidenhain", "kuka",   "abb",
                                                 "ur",    "apt",      "fanuc_tp",   "yaskawa"};
 
+/// In the order of `SpindleAxis`.
+const std::vector<std::string_view> spindle_axes = {"z", "-z", "x", "-x", "y", "-y"};
+
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 
 /// "true" is the former spelling of "machine".
@@ -117,14 +120,22 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
   const toml::node* node = document.get("tool");
   machine.tool_at = node != nullptr ? source.at(key_of(document, "tool").source()) : Location{source.file()};
   if (node == nullptr) return;
-  machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted"});
+  machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted", "spindle_axis"});
+  if (const toml::node* axis = node->as_table()->get("spindle_axis")) {
+    const std::string name = as_choice(*axis, "spindle_axis", spindle_axes, source);
+    const auto place = std::ranges::find(spindle_axes, name) - spindle_axes.begin();
+    machine.spindle_axis = static_cast<SpindleAxis>(place);
+    machine.X_PT.R = machine.X_PT.R * tool_axes(machine.spindle_axis);
+  }
   if (const toml::node* allowed = node->as_table()->get("allow_inverted"))
     machine.allows_inverted_tool = as_truth(*allowed, "allow_inverted", source);
 }
 
 void read_spindle(const toml::table& document, const Source& source, Machine& machine) {
-  if (const toml::node* node = document.get("spindle"))
+  if (const toml::node* node = document.get("spindle")) {
     machine.X_PS = read_transform(*node, "[spindle]", {source});
+    machine.X_PS->R = machine.X_PS->R * tool_axes(machine.spindle_axis);
+  }
 }
 
 void read_work(const toml::table& document, const Source& source, Machine& machine) {

@@ -34,13 +34,11 @@ const Dialect& detect_dialect_of_file(std::string_view text, std::string_view fi
   return siemens_file && detected.name != klartext_name ? *find_dialect("siemens") : detected;
 }
 
-const Dialect& dialect_of_robot(const RobotLanguage& language, const std::string& file,
-                                const ReadOptions& options) {
-  if (options.dialect != "auto" && options.dialect != language.dialect)
-    throw InputError(ErrorKind::program_text, {file, 1, 1},
-                     fmt::format("this is a program in {}, not in dialect '{}'; use auto or {}",
-                                 language.name, options.dialect, language.dialect));
-  return *find_dialect(language.dialect);
+void refuse_other_dialect(std::string_view dialect, const std::string& file, const ReadOptions& options) {
+  if (options.dialect == "auto" || options.dialect == dialect) return;
+  throw InputError(ErrorKind::program_text, {file, 1, 1},
+                   fmt::format("this is a program in {}, not in dialect '{}'; use auto or {}",
+                               robot_language_of(dialect), options.dialect, dialect));
 }
 
 }  // namespace
@@ -51,8 +49,10 @@ std::optional<std::string> unknown_dialect(const std::string& dialect) {
 }
 
 const Dialect& choose_dialect(std::string_view text, const std::string& file, const ReadOptions& options) {
-  if (const RobotLanguage language = robot_language(text); !language.name.empty())
-    return dialect_of_robot(language, file, options);
+  if (const std::string_view dialect = robot_dialect(text); !dialect.empty()) {
+    refuse_other_dialect(dialect, file, options);
+    return *find_dialect(dialect);
+  }
   if (const std::string machine = other_machine(text); !machine.empty())
     throw InputError(
         ErrorKind::program_text, {file, 1, 1},

@@ -62,34 +62,28 @@ bool begins_like_apt(std::string_view line) {
   });
 }
 
-constexpr RobotLanguage krl_language{"KUKA KRL", kuka_name}, rapid_language{"ABB RAPID", abb_name},
-    urscript_language{"URScript", ur_name}, apt_language{"APT", apt_name},
-    tp_language{"FANUC TP (LS)", tp_name}, inform_language{"Yaskawa INFORM", yaskawa_name};
-
-RobotLanguage language_of(std::string_view line) {
+std::string_view dialect_of(std::string_view line) {
   if (line.size() > 1 && line[0] == '&' && std::isalpha(static_cast<unsigned char>(line[1])) != 0)
-    return krl_language;
-  if (begins_with(line, "DEFDAT", true)) return krl_language;
-  if (begins_with(line, "DEF", true) && is_definition(without_blanks(line.substr(3)), ""))
-    return krl_language;
-  if (begins_with(line, "def", false) && is_definition(without_blanks(line.substr(3)), ":"))
-    return urscript_language;
-  if (begins_with_call(line, {"movej", "movel", "movep", "set_tcp"})) return urscript_language;
-  if (line == "%%%" || begins_with(line, "MODULE", true)) return rapid_language;
-  if (begins_with(line, "/PROG", true)) return tp_language;
-  if (begins_with(line, "/JOB", true)) return inform_language;
-  if (begins_with(line, "PARTNO", true) || begins_like_apt(line)) return apt_language;
+    return kuka_name;
+  if (begins_with(line, "DEFDAT", true)) return kuka_name;
+  if (begins_with(line, "DEF", true) && is_definition(without_blanks(line.substr(3)), "")) return kuka_name;
+  if (begins_with(line, "def", false) && is_definition(without_blanks(line.substr(3)), ":")) return ur_name;
+  if (begins_with_call(line, {"movej", "movel", "movep", "set_tcp"})) return ur_name;
+  if (line == "%%%" || begins_with(line, "MODULE", true)) return abb_name;
+  if (begins_with(line, "/PROG", true)) return tp_name;
+  if (begins_with(line, "/JOB", true)) return yaskawa_name;
+  if (begins_with(line, "PARTNO", true) || begins_like_apt(line)) return apt_name;
   return {};
 }
 
 }  // namespace
 
-RobotLanguage robot_language(std::string_view text) {
+std::string_view robot_dialect(std::string_view text) {
   if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   while (!text.empty()) {
     const std::size_t end = std::min(text.find('\n'), text.size());
     const std::string_view line = without_blanks(text.substr(0, end));
-    if (!line.empty() && !is_comment(line)) return language_of(line);
+    if (!line.empty() && !is_comment(line)) return dialect_of(line);
     text.remove_prefix(std::min(end + 1, text.size()));
   }
   return {};

@@ -4,12 +4,7 @@
 
 namespace counterflex {
 
-struct RobotLanguage {
-  std::string_view name;       ///< "KUKA KRL"; empty: not a robot language
-  std::string_view dialect{};  ///< in which it is read; empty: not a robot program
-};
-
-/// The language of a robot program. Its first statement, after blank lines and comments, decides.
-RobotLanguage robot_language(std::string_view text);
+/// The dialect of a robot program, or nothing. Its first statement, after blank lines and comments, decides.
+std::string_view robot_dialect(std::string_view text);
 
 }  // namespace counterflex

@@ -131,7 +131,7 @@ bool turns_evenly(const TpPoint& through, const Move& move) {
   const Vector3 n = normal_of(*move.arc), start = move.start_mm - move.arc->centre_mm;
   const double sweep = angle_about_normal(n, start, move.end_mm - move.arc->centre_mm);
   const double before = angle_about_normal(n, start, move.arc->through->p_mm - move.arc->centre_mm);
-  const Matrix3 expected = orientation_at(turn_of(*move.orientation), before / sweep);
+  const Matrix3 expected = orientation_at(written_turn_of(*move.orientation), before / sweep);
   return rotation_between(rotation_of_target(through.target), expected).norm() <= room;
 }
 

@@ -178,7 +178,7 @@ constexpr std::string_view letters_of_angles = "ABC";
 /// Reads A, B and C. Under G91 and where the block is not followed the angle is unknown.
 void place_angles(const Block& block, Reading& r, Move& move, bool followed) {
   ModalState& state = r.state;
-  MoveOrientation orientation{.by_angles = true};
+  MoveOrientation orientation{.by_angles = true, .spindle_axis = r.options.spindle_axis};
   const bool starts_known = state.turns_tool && all_known(state.known_angles);
   for (std::size_t i = 0; i < 3; ++i) {
     orientation.start[i] = coordinate(state.angles_deg, i);

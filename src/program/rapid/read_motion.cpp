@@ -156,7 +156,7 @@ bool turns_about_fixed_axis(const RapidReading& r, const RobotTarget& point, con
   const double part_of_sweep =
       angle_about(n, start, move.arc->through->p_mm - centre) / angle_about(n, start, move.end_mm - centre);
   if (!(part_of_sweep >= first && part_of_sweep <= last)) return false;
-  const Turn turn = turn_of(*move.orientation);
+  const Turn turn = written_turn_of(*move.orientation);
   const Matrix3 R_point = rotation_of(OrientationForm::quaternion, orientation_of(point));
   if (rotation_between(R_point, orientation_at(turn, part_of_sweep)).norm() > room_of_circle_point)
     return false;

@@ -40,6 +40,7 @@ void place_orientation(const RobotTarget& target, RobotReading& r, Move& move) {
   if (!r.turns) return;
   RobotState& state = r.state;
   MoveOrientation orientation{.form = r.form, .start = state.orientation};
+  if (r.form != OrientationForm::axis) orientation.spindle_axis = r.options.spindle_axis;
   for (std::size_t i = 0; i < number_count(r.form); ++i) {
     if (!target.orientation[i]) continue;
     state.orientation[i] = target.orientation[i]->value;

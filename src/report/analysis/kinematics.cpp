@@ -73,6 +73,11 @@ std::vector<double> numbers_in(const ControlForm& control, const Matrix3& R) {
   return list;
 }
 
+/// Of the control's tool frame.
+Matrix3 written_orientation(const KinematicPlace& place, const KinematicsReport& report) {
+  return place.X_MT.R * tool_axes(report.spindle_axis).transpose();
+}
+
 std::string row(std::string_view label, const std::string& text) {
   return fmt::format("  {:<16} {}\n", label, text);
 }
@@ -93,7 +98,8 @@ std::string actuator_text(const Travel& travel, double shown) {
                      travel_range(travel));
 }
 
-std::string place_text(const KinematicPlace& place, const std::vector<Travel>& travel) {
+std::string place_text(const KinematicPlace& place, const KinematicsReport& report) {
+  const std::vector<Travel>& travel = report.travel;
   std::string text;
   if (place.status != Status::converged)
     text += row("status", fmt::format("{}: {}", to_string(place.status), place.why));
@@ -101,9 +107,11 @@ std::string place_text(const KinematicPlace& place, const std::vector<Travel>& t
   const Vector3 p = place.X_MT.p / mm;
   text += row("tip x y z", list_text({p.x(), p.y(), p.z()}, 4) + " mm");
   for (const ControlForm& control : control_forms)
-    text += row(control.control,
-                fmt::format("{}: {}{}", control.names,
-                            list_text(numbers_in(control, place.X_MT.R), control.decimals), control.unit));
+    text +=
+        row(control.control,
+            fmt::format("{}: {}{}", control.names,
+                        list_text(numbers_in(control, written_orientation(place, report)), control.decimals),
+                        control.unit));
   for (std::size_t i = 0; i < travel.size(); ++i)
     text += row(travel[i].name, actuator_text(travel[i], place.shown[static_cast<Eigen::Index>(i)]));
   if (place.margins)
@@ -126,17 +134,17 @@ Json actuators_json(const KinematicPlace& place, const std::vector<Travel>& trav
   return list;
 }
 
-Json place_json(const KinematicPlace& place, const std::vector<Travel>& travel) {
+Json place_json(const KinematicPlace& place, const KinematicsReport& report) {
   Json json = {{"status", std::string(to_string(place.status))},
                {"why", place.why.empty() ? Json(nullptr) : Json(place.why)}};
   if (!is_known(place)) return json;
   json["tip_mm"] = numbers(Vector3(place.X_MT.p / mm), analysis_digits);
   for (const ControlForm& control : control_forms) {
-    const std::vector<double> values = numbers_in(control, place.X_MT.R);
+    const std::vector<double> values = numbers_in(control, written_orientation(place, report));
     json[control.key] = Json::array();
     for (const double value : values) json[control.key].push_back(number(value, analysis_digits));
   }
-  json["actuators"] = actuators_json(place, travel);
+  json["actuators"] = actuators_json(place, report.travel);
   json["singular"] = Json::array();
   if (place.margins)
     for (const ArmMargin& margin : *place.margins)
@@ -159,13 +167,13 @@ std::string to_text(const KinematicsReport& report) {
   std::string text = report.machine.empty() ? "Machine without a name" : report.machine;
   text += report.tool.empty() ? "\n" : "\nwith " + report.tool + "\n";
   for (std::size_t i = 0; i < report.places.size(); ++i)
-    text += fmt::format("\nPose {}\n", i + 1) + place_text(report.places[i], report.travel);
+    text += fmt::format("\nPose {}\n", i + 1) + place_text(report.places[i], report);
   return text;
 }
 
 std::string to_json(const KinematicsReport& report) {
   Json places = Json::array();
-  for (const KinematicPlace& place : report.places) places.push_back(place_json(place, report.travel));
+  for (const KinematicPlace& place : report.places) places.push_back(place_json(place, report));
   Json document = {{"schema", "counterflex-kinematics 1"},
                    {"tool", fmt::format("counterflex {}", report.version)},
                    {"machine", report.machine},

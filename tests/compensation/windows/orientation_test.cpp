@@ -330,7 +330,7 @@ Pose corrected(const std::vector<Pose>& poses, const PathTarget& target) {
 
 }  // namespace
 
-TEST_CASE("one path in five languages has the same corrected targets, to the written digit") {
+TEST_CASE("one path in seven languages has the same corrected targets, to the written digit") {
   std::vector<std::vector<Pose>> found;
   for (const Language& language : languages()) {
     CAPTURE(language.name);
@@ -358,4 +358,36 @@ TEST_CASE("one path in five languages has the same corrected targets, to the wri
       CHECK(angle_between(found[k][i].R, found[0][i].R) < 5e-8);
       CHECK((found[k][i].p - targets[i].p_mm * mm).norm() > 1e-5);  // they were corrected
     }
+}
+
+TEST_CASE("a tool frame of the control with any axis along the spindle has the same corrections") {
+  const Language kuka = languages()[1];
+  std::vector<std::vector<Pose>> found;
+  for (const SpindleAxis axis :
+       {SpindleAxis::z, SpindleAxis::minus_z, SpindleAxis::y, SpindleAxis::minus_y}) {
+    std::string text = kuka.head;
+    for (std::size_t i = 0; i < targets.size(); ++i) {
+      const Matrix3 R = rotation_of_words(targets[i].abc_deg) * tool_axes(axis).transpose();
+      const OrientationNumbers words = numbers_of(OrientationForm::fixed_axes, R, {});
+      text += kuka.statement({targets[i].p_mm, {words[0], words[1], words[2]}},
+                             i == 0 || i + 1 == targets.size());
+    }
+    Order order = turning_order(text + kuka.tail);
+    order.X_MW = {};
+    order.read.dialect = "kuka";
+    order.read.spindle_axis = axis;
+    const Compensation result = compensated(Shop(order));
+    std::vector<Pose>& poses = found.emplace_back(poses_in(result.text, kuka));
+    REQUIRE(poses.size() > targets.size());
+    for (Pose& X : poses) X.R = X.R * tool_axes(axis);
+  }
+  for (std::size_t k = 1; k < found.size(); ++k) {
+    CAPTURE(k);
+    REQUIRE(found[k].size() == found[0].size());
+    for (std::size_t i = 0; i < found[0].size(); ++i) {
+      CAPTURE(i);
+      CHECK((found[k][i].p - found[0][i].p).norm() < 2e-9);
+      CHECK(angle_between(found[k][i].R, found[0][i].R) < 5e-8);
+    }
+  }
 }
