@@ -9,6 +9,7 @@
 #include "counterflex/machine/shown.hpp"
 #include "machine/describe/describe_elements.hpp"
 #include "machine/describe/phrases.hpp"
+#include "machine/spindle_axes.hpp"
 #include "machine/walk.hpp"
 
 namespace counterflex {
@@ -36,12 +37,12 @@ Pose in_axes_of_control(const Pose& X_PT, const Machine& machine) {
 }
 
 std::string tool_phrase(const Machine& machine) {
-  constexpr std::string_view directions[] = {"z", "-z", "x", "-x", "y", "-y"};
   const Pose X_PC = in_axes_of_control(machine.X_PT, machine);
   std::string text =
       is_identity(X_PC) ? "tip at the reference point" : "tip at " + phrase(X_PC) + " from the platform";
   if (machine.spindle_axis != SpindleAxis::z)
-    text.append(", spindle in its ").append(directions[static_cast<std::size_t>(machine.spindle_axis)]);
+    text.append(", spindle in its ")
+        .append(spindle_axis_names[static_cast<std::size_t>(machine.spindle_axis)]);
   return text;
 }
 

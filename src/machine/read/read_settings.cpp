@@ -9,6 +9,7 @@
 #include "counterflex/machine/machine.hpp"
 #include "machine/read/read_load_limits.hpp"
 #include "machine/read/read_transform.hpp"
+#include "machine/spindle_axes.hpp"
 #include "toml/suggest.hpp"
 
 namespace counterflex::toml_file {
@@ -19,9 +20,6 @@ const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry"
 const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc",  "haas",
                                                 "mach3", "siemens",  "heidenhain", "kuka",   "abb",
                                                 "ur",    "apt",      "fanuc_tp",   "yaskawa"};
-
-/// In the order of `SpindleAxis`.
-const std::vector<std::string_view> spindle_axes = {"z", "-z", "x", "-x", "y", "-y"};
 
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 
@@ -122,8 +120,8 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
   if (node == nullptr) return;
   machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted", "spindle_axis"});
   if (const toml::node* axis = node->as_table()->get("spindle_axis")) {
-    const std::string name = as_choice(*axis, "spindle_axis", spindle_axes, source);
-    const auto place = std::ranges::find(spindle_axes, name) - spindle_axes.begin();
+    const std::string name = as_choice(*axis, "spindle_axis", spindle_axis_names, source);
+    const auto place = std::ranges::find(spindle_axis_names, name) - spindle_axis_names.begin();
     machine.spindle_axis = static_cast<SpindleAxis>(place);
     machine.X_PT.R = machine.X_PT.R * tool_axes(machine.spindle_axis);
   }

@@ -9,8 +9,7 @@
 namespace counterflex {
 namespace {
 
-// Motion options: FANUC Robotics, SYSTEM R-30iA/R-30iB Controller, HandlingTool Operator's Manual, "Motion
-// instructions".
+// The options are those of programs that were seen, not of a manual: a motion with another one is refused.
 
 /// Options that a copy of the statement may repeat, in upper case up to their number.
 constexpr auto copied_options =

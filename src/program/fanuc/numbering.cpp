@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-// A remark: FANUC Robotics, HandlingTool Operator's Manual, "REMARK": 1 to 32 characters.
+// The shortest limit that is known of controls; no manual was at hand to confirm it.
 constexpr std::size_t longest_remark = 32;
 constexpr std::string_view mark = "COUNTERFLEX 1";
 

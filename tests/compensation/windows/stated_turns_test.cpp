@@ -81,3 +81,21 @@ TEST_CASE("a target without T may cross the zero of an axis, and a crossing is f
   }
   CHECK(crossed > 0);
 }
+
+TEST_CASE("the sign that T states is of the value that the control shows") {
+  std::string text = read_file(robot);
+  text = replaced(text, "xyz_mm = [250, 0, 120]", "xyz_mm = [250, 0, 120]\nrpy_deg = [0, -90, 0]");
+  for (const std::string axis : {"z", "x"}) {
+    const std::string joint = "actuator = \"revolute\", axis = \"" + axis + "\" }";
+    for (std::size_t at = 0; (at = text.find(joint, at)) != std::string::npos; at += joint.size())
+      text.insert(at + joint.size() - 2, ", shown_zero_deg = 20");
+  }
+  for (int k = 0; k < 100; ++k) {
+    const double y_mm = -0.2475 + 0.005 * k;
+    CAPTURE(y_mm);
+    Order order = order_of(y_mm, ",S 2,T 10");
+    order.machine = read_machine(text, "arm.toml");
+    Shop shop(order);
+    CHECK(!compensate(shop.job(), false).failure);
+  }
+}

@@ -1,12 +1,8 @@
 // Programs of FANUC robots: what is refused, with line and column.
 #include <doctest/doctest.h>
 
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
-
-#include "counterflex/files/files.hpp"
 #include "program/fanuc/fanuc.hpp"
+#include "program/robot/corpus.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -98,25 +94,8 @@ TEST_CASE("lists of positions that are wrong are refused with line and column") 
 }
 
 TEST_CASE("each FANUC program of a folder of real programs is reproduced or refused with its line") {
-  const char* folder = std::getenv("COUNTERFLEX_PROGRAMS");
-  if (folder == nullptr) {
-    std::puts("skipped: the environment variable COUNTERFLEX_PROGRAMS does not name a folder of programs");
-    return;
-  }
-  for (const auto& entry : std::filesystem::recursive_directory_iterator(folder)) {
-    const std::string name = entry.path().filename().string();
-    if (!entry.is_regular_file() || (!name.ends_with(".ls") && !name.ends_with(".LS"))) continue;
-    CAPTURE(name);
-    const std::string text = read_file(entry.path().string());
-    try {
-      const Program program = read_program(text, name, {});
-      CHECK(unchanged(program) == text);
-      MESSAGE(name << ": " << program.moves.size() << " moves, " << program.left_alone.size()
-                   << " left alone");
-    } catch (const InputError& error) {
-      MESSAGE(std::string(error.what()));
-      CHECK(error.where().line > 0);
-      CHECK(error.where().column > 0);
-    }
-  }
+  const auto is_wanted = [](const std::filesystem::path& path) {
+    return path.extension() == ".ls" || path.extension() == ".LS";
+  };
+  check_corpus(is_wanted, text_of_file);
 }

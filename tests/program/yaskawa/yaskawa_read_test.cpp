@@ -4,6 +4,7 @@
 #include <numbers>
 
 #include "counterflex/program/program_reader.hpp"
+#include "program/robot/corpus.hpp"
 #include "program/yaskawa/yaskawa.hpp"
 
 using namespace counterflex;
@@ -312,4 +313,8 @@ TEST_CASE("text above the instructions and behind END stays, and is not read as 
   const Program program = read_job(text);
   CHECK(program.moves.empty());
   CHECK(rewrite(program, {}, {}).text == text);
+}
+
+TEST_CASE("each Yaskawa job of a folder of real programs is reproduced or refused with its line") {
+  check_corpus([](const std::filesystem::path& path) { return path.extension() == ".jbi"; }, text_of_file);
 }
