@@ -1,5 +1,6 @@
 #include "counterflex/geometry/turn.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 
 #include "counterflex/geometry/types.hpp"

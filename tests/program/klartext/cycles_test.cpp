@@ -146,6 +146,21 @@ TEST_CASE("klartext: incremental holes and a surface in a line of its own are he
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
 }
 
+TEST_CASE("klartext: behind holes with a surface in a line of its own Z is that of the second clearance") {
+  for (const char* hole : {"L IX+2 FMAX M99", "L X+9 FMAX M99"}) {
+    CAPTURE(hole);
+    const std::string text =
+        klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF 200 DRILLING", "Q200 = 2", "Q203 = +1.5", "Q204 = 10",
+                  "L X+5 Y+5 FMAX M99", hole, "L X+0 Y+0 FMAX"});
+    const Program program = read(text);
+    CHECK(all_known(program.moves[2].known_end));
+    CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+    const std::string shifted = klartext_shifted(program);
+    CHECK(shifted.find("Q203 = +1.625\n") != std::string::npos);
+    CHECK(shifted.find("L X+0.5 Y-0.25 FMAX\n") != std::string::npos);
+  }
+}
+
 TEST_CASE("klartext: holes of cycles that are relative to the tool are shifted with their positions") {
   const Program program = read(
       klartext({"L X+1 Y+0 Z+2 FMAX", "CYCL DEF 1.0 PECKING", "CYCL DEF 1.1 DIST 2", "CYCL DEF 1.2 DEPTH -10",

@@ -367,6 +367,11 @@ bool has_words(const Move& move) {
 
 }  // namespace
 
+void reach_surface(const Move& move, KlartextTextState& state) {
+  const bool of_cycle = move.makes_hole && move.takes_no_z && !move.words[2] && move.known_end[2];
+  if (of_cycle) state.position[2] = state.surface ? *state.surface * mm_per(move.unit) : move.end_mm.z();
+}
+
 void rewrite_klartext_block(const Program& program, const KlartextStyle& style, const MoveEdit& edit,
                             const WriteOptions& options, KlartextTextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out) {
@@ -374,7 +379,7 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
   assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
   if (!has_words(move)) {
     state.position = text_position_after_original(move, state.position);
-    return;
+    return reach_surface(move, state);
   }
   KlartextBlockWriter w{program, style, move, options, state, changes, out};
   w.block.line_end = {move.block.begin, move.block.begin};
@@ -387,6 +392,7 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
   const TextPosition before = state.position;
   write_edit(w, edit);
   forget_skippable(move, before, state.position);
+  reach_surface(move, state);
 }
 
 }  // namespace counterflex

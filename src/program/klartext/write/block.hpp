@@ -24,6 +24,10 @@ struct KlartextTextState {
   WrittenNumbers numbers{};
 };
 
+/// Enters the position after `move` if it makes a hole without a word of its own for the surface: the cycle
+/// ends it at the surface in the text.
+void reach_surface(const Move& move, KlartextTextState& state);
+
 /// Characters that replace a span of the program.
 struct KlartextChange {
   Span span;

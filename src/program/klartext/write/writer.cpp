@@ -55,6 +55,7 @@ void keep_move(const Move& move, KlartextTextState& state) {
   state.position = text_position_after_original(move, state.position);
   if (move.arc && move.arc->absolute_centre) state.pole.centre_mm = move.arc->centre_mm;
   if (move.makes_hole && move.words[2]) state.surface.reset();
+  reach_surface(move, state);
 }
 
 /// Whether an earlier hole has left another surface in the text than in the original.
