@@ -18,7 +18,7 @@ FanucReader::FanucReader(const std::string& file, const ReadOptions& options, co
 bool FanucReader::next_line(RobotLine& line) const {
   if (next_tp_line(program().text, tp_.section, line)) return true;
   if (tp_.section == TpSection::attributes)
-    throw InputError(ErrorKind::program_text, {program().file},
+    throw InputError(ErrorKind::program_text, {program().file, 1, 1},
                      "the program has no line /MN, behind which the motions are; is the file cut off?");
   return false;
 }

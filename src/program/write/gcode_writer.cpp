@@ -94,6 +94,8 @@ const Move& come_to(std::size_t index, Writing& w) {
   const Move* last = move_before(w.program, index);
   if (last != nullptr && last->end_mm != move.start_mm)
     w.state.position = text_position_between(*last, move, w.state.position);
+  for (std::size_t axis = 0; last == nullptr && axis < 3; ++axis)  // G92 has given the first position
+    if (move.known_start[axis]) w.state.position[axis] = component(move.start_mm, axis);
   return move;
 }
 

@@ -73,6 +73,15 @@ TEST_CASE("G92 before any move gives the position set by the operator") {
   CHECK(frame_of_last(program).origin_mm.isZero(0));
 }
 
+TEST_CASE("behind G92 the first move gets no word for an axis that stays at the position set") {
+  const std::string text = "G21 G90\nG92 X10. Y0. Z0.\nG0 X10. Y5.\nG1 X20. F100\n";
+  const Program program = read(text);
+  CHECK(rewrite(program, edits_to_original(program), {}).text == text);
+  std::vector<MoveEdit> edits = edits_to_original(program);
+  for (MoveEdit& edit : edits) edit.end_mm.z() += 0.25;
+  CHECK(rewrite(program, edits, {}).text == "G21 G90\nG92 X10. Y0. Z0.\nG0 X10. Y5. Z0.250\nG1 X20. F100\n");
+}
+
 TEST_CASE("G92 of zeros needs no unit") {
   CHECK(followed(read("G92 X0 Y0 Z0\nG21 G90\nG0 X1. Y2. Z3.\nG1 X2. F100\n", "grbl")));
 }
