@@ -166,6 +166,7 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
   report.after = known(measures.after);
   if (report.facts.attribution && report.after) report.air = known(measures.air);
   report.worst = tally.path().worst(&WorstRow::after_mm);
+  report.correction = known(measures.correction);
   report.tools_off = tools_off(measures, true);
 }
 
@@ -263,7 +264,6 @@ RunReport report_compensation(const RunContext& context, const RunTally& tally,
   RunReport report = common(context, tally, measures, failure);
   report.command = Command::compensate;
   add_residual(report, tally, measures);
-  report.correction = known(tally.largest_correction());
   report.blocks.corrected = tally.corrected_moves();
   report.blocks.others = tally.other_moves();
   report.blocks.inserted = tally.inserted_blocks();
@@ -281,7 +281,6 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   RunReport report = common(context, tally, measures, failure);
   report.command = Command::verify;
   add_residual(report, tally, measures);
-  report.correction = known(measures.correction);
   report.blocks.corrected = measures.segments_changed;
   report.blocks.inserted = corrected.blocks - std::min(corrected.blocks, context.program.blocks);
   report.text_after = TextSize{corrected.blocks, corrected.bytes};

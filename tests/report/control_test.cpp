@@ -18,7 +18,9 @@ RunReport report_on(const std::string& original, const std::string& text, double
   run.program = read_program(original, "made_up.ngc", run.job.read);
   Compensation c;
   c.text = text;
-  c.largest_correction = correction_mm * mm;
+  c.waypoints.emplace_back().segment = no_segment;
+  c.waypoints[0].line = 1;
+  c.waypoints[0].correction.x() = correction_mm * mm;
   return compensated(run, c);
 }
 

@@ -149,8 +149,6 @@ inline Compensation small_compensation() {
   c.counts.inserted_blocks = 2;
   c.corrected_moves = 3;
   c.other_moves = {.grouped = 1, .held = 1};
-  c.largest_correction = 0.5 * mm;
-  c.largest_correction_line = 4;
   return c;
 }
 

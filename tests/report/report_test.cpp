@@ -19,8 +19,6 @@ Compensation made_up_compensation() {
   c.left_alone = {{5, "exact stop: not split"}};
   c.counts.inserted_blocks = 2;
   c.corrected_moves = 3;
-  c.largest_correction = 0.5 * mm;
-  c.largest_correction_line = 5;
   return c;
 }
 
@@ -69,7 +67,8 @@ TEST_CASE("a compensation reports its counts, sizes, causes and the deviation wi
   CHECK(report.air->mm == doctest::Approx(0.25));
   CHECK(report.air->line == 5);
   REQUIRE(report.correction);
-  CHECK(report.correction->mm == doctest::Approx(0.5));
+  CHECK(report.correction->mm == doctest::Approx(std::sqrt(3 * 81.0)));  // of the written rapid
+  CHECK(report.correction->line == 3);
   CHECK(report.forces.largest_N == doctest::Approx(50));
   CHECK(report.forces.largest_Nm == doctest::Approx(2));
   CHECK(report.forces.ramps == run.forces.ramps());

@@ -210,7 +210,7 @@ TEST_CASE("with many different reasons the last row collects the rest") {
   CHECK(without.reasons[99].first_line == 100);
 }
 
-TEST_CASE("compensations of windows add up, and the first of the largest corrections is named") {
+TEST_CASE("compensations of windows add up") {
   const MadeUpRun run;
   RunTally tally(2);
   for (int window = 0; window < 3; ++window) {
@@ -219,8 +219,6 @@ TEST_CASE("compensations of windows add up, and the first of the largest correct
     c.corrected_moves = 2;
     c.other_moves = {.grouped = 1, .held = 2, .in_part = 3, .left = 4};
     c.counts.inserted_blocks = 5;
-    c.largest_correction = (window == 0 ? 0.1 : 0.3) * mm;
-    c.largest_correction_line = 10 * window;
     for (int i = 0; i < 60; ++i) c.left_alone.push_back({100 * window + i, "why"});
     tally.add_compensation(c);
   }
@@ -234,11 +232,21 @@ TEST_CASE("compensations of windows add up, and the first of the largest correct
   CHECK(report.blocks.inserted == 15);
   CHECK(report.text_after->bytes == 12);
   CHECK(report.text_after->blocks == overview.blocks + 15);
-  CHECK(report.correction->mm == doctest::Approx(0.3));
-  CHECK(report.correction->line == 10);
   CHECK(report.blocks.left_alone.count == 180);
   CHECK(report.blocks.left_alone.rows.size() == listed_at_most);
   CHECK(report.blocks.left_alone.rows.back().line == 139);
+}
+
+TEST_CASE("of written targets with the largest correction the first is named, whatever window it is in") {
+  const MadeUpRun run;
+  RunTally tally(2);
+  for (const int line : {4, 5, 6})
+    tally.add_waypoints({cut(1, line, 1, Vector3(0, 0, line == 4 ? 0.1 : 0.3))});
+  const Overview overview = overview_of(run.program);
+  const RunReport report = report_compensation(run.context(overview), tally, {});
+  REQUIRE(report.correction);
+  CHECK(report.correction->mm == doctest::Approx(0.3));
+  CHECK(report.correction->line == 5);
 }
 
 TEST_CASE("blocks listed by the program come before the compensation's of the same line") {

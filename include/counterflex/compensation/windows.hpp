@@ -30,8 +30,6 @@ struct Compensation {
   Rewritten counts;                 ///< its text is moved to `text`
   std::size_t corrected_moves = 0;  ///< each on its own
   OtherMoves other_moves;
-  double largest_correction = 0;  ///< m
-  int largest_correction_line = 0;
 };
 
 /// With `attribution` each waypoint's deviation is split into its causes.

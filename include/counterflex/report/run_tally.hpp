@@ -159,7 +159,7 @@ class RunTally {
   /// The next window's: its ramps, jumps, moves without a force and notes are added to those before.
   void add_forces(const PathForces& forces);
 
-  /// The next window's counts, left-alone blocks, largest correction and size of text. Neither its waypoints
+  /// The next window's counts, left-alone blocks and size of text. Neither its waypoints
   /// nor its `corrected`.
   void add_compensation(const Compensation& compensation);
 
@@ -178,7 +178,6 @@ class RunTally {
   const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps, steps and moves without one
   const Capped<Remark>& force_notes() const { return force_notes_; }
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
-  const Largest& largest_correction() const { return largest_correction_; }
   std::size_t corrected_moves() const { return corrected_moves_; }
   const OtherMoves& other_moves() const { return other_moves_; }
   std::size_t inserted_blocks() const { return inserted_blocks_; }
@@ -205,7 +204,6 @@ class RunTally {
   ForceSummary forces_;
   Capped<Remark> force_notes_;
   Capped<LeftAlone> left_alone_;
-  Largest largest_correction_;
   OtherMoves other_moves_;
   std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
   std::optional<LineLengths> lines_;

@@ -7,41 +7,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double indistinct = 1e-10;  // m: of corrections that differ by rounding the first is named
-
-void note_correction(double size, int line, Compensation& result) {
-  if (result.largest_correction_line != 0 && size <= result.largest_correction + indistinct) return;
-  result.largest_correction = size;
-  result.largest_correction_line = line;
-}
-
-void note_planned_corrections(const Job& job, const Plan& plan, Compensation& result) {
-  for (std::size_t s = 0; s < plan.segments.size(); ++s) {
-    const Segment& segment = job.path.segments[s];
-    const auto note = [&](const Vector3& c) {
-      note_correction((c + job.path.frames[segment.frame].datum_shift).norm(), segment.line, result);
-    };
-    const PlannedSegment& planned = plan.segments[s];
-    if (planned.end) note(planned.end->target - segment.wanted.end);
-    for (const Knot& knot : planned.knots) note(knot.target - point_at(segment.wanted, knot.u));
-    for (const CurveNode& node : planned.group) note(shift_of(node.c));
-    for (const CorrectionCurve& curve : planned.arc)
-      for (const CurveInterval& interval : curve.intervals())
-        for (const CurveNode& node : interval.nodes) note(shift_of(node.c));
-  }
-}
-
-// Positions that come from unknown ones, and holes, have no segment.
-void note_first_corrections(const Job& job, const Emission& emission, Compensation& result) {
-  for (const EmittedMove& emitted : emission.moves) {
-    if (emitted.kind != EmittedMove::Kind::alone) continue;
-    const Move& move = job.program.moves[emitted.edit.move];
-    Vector3 shift = emitted.edit.end_mm - move.end_mm;
-    if (emitted.edit.bottom_mm) shift.z() = *emitted.edit.bottom_mm - move.cycle->bottom_mm;
-    note_correction(shift.norm() * mm, move.line, result);
-  }
-}
-
 void count_moves(const Job& job, const Emission& emission, Compensation& result) {
   OtherMoves& others = result.other_moves;
   for (const EmittedMove& emitted : emission.moves) {
@@ -81,7 +46,6 @@ void plan_window(const Job& job, WindowWork& work) {
   if (work.failed()) return;
   work.plan = plan(job);
   result.failure = work.plan.failure;
-  if (!work.failed()) note_planned_corrections(job, work.plan, result);
 }
 
 void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
@@ -91,7 +55,6 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   Emission emission = emit(job, work.plan, carry.emitter);
   work.ways = planned_ways(job, work.plan);
   work.plan = {};
-  note_first_corrections(job, emission, result);
   result.left_alone = std::move(emission.left_alone);
   result.failure = emission.failure;
   if (work.failed()) return;

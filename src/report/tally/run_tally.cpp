@@ -100,9 +100,6 @@ void RunTally::add_compensation(const Compensation& compensation) {
   inserted_blocks_ += compensation.counts.inserted_blocks;
   text_bytes_ += compensation.text.size();
   for (const LeftAlone& block : compensation.left_alone) list(left_alone_, block);
-  const double correction_mm = compensation.largest_correction / mm;
-  if (largest_correction_.line == 0 || correction_mm > largest_correction_.mm + indistinct_mm)
-    largest_correction_ = {correction_mm, compensation.largest_correction_line};
 }
 
 void RunTally::add_corrected(const Program& corrected_window) {

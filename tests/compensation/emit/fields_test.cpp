@@ -41,7 +41,7 @@ TEST_CASE("a rigid gantry that is displaced is sent back by exactly the displace
     CAPTURE(before[m].line);
     CHECK((after[m].end_mm - before[m].end_mm - Vector3(-0.5, 0.25, -0.125)).norm() < 1e-9);
   }
-  CHECK(result.largest_correction == doctest::Approx(Vector3(0.5, 0.25, 0.125).norm() * mm));
+  CHECK(largest_correction(result.waypoints).size == doctest::Approx(Vector3(0.5, 0.25, 0.125).norm() * mm));
 }
 
 TEST_CASE("out of square axes are corrected by the inverse of their affine map, without points") {

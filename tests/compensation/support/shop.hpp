@@ -119,4 +119,19 @@ inline Compensation compensated(const Shop& shop, bool attribution = false) {
   return result;
 }
 
+struct LargestCorrection {
+  double size = 0;  ///< m
+  int line = 0;
+};
+
+/// The largest written target minus the original one, at the ends of moves; the first of equal ones.
+inline LargestCorrection largest_correction(const std::vector<Waypoint>& waypoints) {
+  LargestCorrection largest;
+  for (const Waypoint& w : waypoints) {
+    const double size = w.correction.head<3>().norm();
+    if (!w.between && size > largest.size) largest = {size, w.line};
+  }
+  return largest;
+}
+
 }  // namespace counterflex::test

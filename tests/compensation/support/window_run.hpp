@@ -14,7 +14,6 @@ struct WindowRun {
   std::vector<LeftAlone> left_alone;
   std::optional<Failure> failure;
   std::size_t begun = 0, windows = 0, inserted = 0, corrected = 0;
-  double largest = 0;
 };
 
 inline void add(const Compensation& done, WindowRun& run) {
@@ -22,7 +21,6 @@ inline void add(const Compensation& done, WindowRun& run) {
   run.left_alone.insert(run.left_alone.end(), done.left_alone.begin(), done.left_alone.end());
   run.inserted += done.counts.inserted_blocks;
   run.corrected += done.corrected_moves;
-  run.largest = std::max(run.largest, done.largest_correction);
   ++run.windows;
 }
 
