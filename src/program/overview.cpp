@@ -63,7 +63,8 @@ void add_window(Overview& overview, const Program& window) {
   add_text(overview, window.text);
   for (const Move& move : window.moves) add_move(overview, move);
   add_tools_and_offsets(overview, window.moves);
-  for (const LeftAlone& block : window.left_alone) list(overview.left_alone, block);
+  for (const LeftAlone& block : window.left_alone)
+    list(block.machine_position ? overview.machine_positions : overview.left_alone, block);
   const int last_move = window.moves.empty() ? 0 : window.moves.back().line;
   overview.lines = window.expansion.file_lines > 0
                        ? window.expansion.file_lines

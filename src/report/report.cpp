@@ -148,6 +148,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.blocks.total = context.program.blocks;
   report.blocks.moves = context.program.moves;
   report.blocks.left_alone = context.program.left_alone;
+  report.blocks.machine_positions = context.program.machine_positions;
   report.text_before = {context.program.blocks, context.program.bytes};
   report.forces = force_summary(tally, measures);
   const bool acts = report.forces.largest_N > 0 || report.forces.largest_Nm > 0;
@@ -173,9 +174,8 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
 std::string nothing_reason(const BlockCounts& blocks) {
   if (blocks.moves == 0) return "the program has no moves";
   const auto& left = blocks.left_alone.rows;
-  const auto first =
-      std::find_if(left.begin(), left.end(), [](const LeftAlone& block) { return !block.machine_position; });
-  const std::string cause = first == left.end() ? "" : fmt::format(" (line {}: {})", first->line, first->why);
+  const std::string cause =
+      left.empty() ? "" : fmt::format(" (line {}: {})", left.front().line, left.front().why);
   return "no feed move has a known position" + cause;
 }
 

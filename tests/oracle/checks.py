@@ -95,7 +95,8 @@ class Corrected:
             for j in range(done + 1, index + 1):
                 self.line_of_version[(j + 1 if j < first else j + 1 + count)] = number
             done = index
-        self.left_alone = {row['line'] for row in self.run.report['blocks']['left_alone']}
+        self.left_alone = {row['line'] for key in ('left_alone', 'machine_positions')
+                           for row in self.run.report['blocks'][key]}
 
     def line_of(self, line):
         return self.line_of_version.get(line, max(self.line_of_version.values()) + 1)

@@ -43,8 +43,10 @@ test('residuals above the tolerance are at the top, reasons of blocks that are n
   const [verdict] = await texts(page, '.verdict.warn');
   assert.match(verdict, /more than the tolerance of 5.0 \u00b5m; [\d.]+ % of the cutting length is within it/);
   const rows = await texts(page, '#remarks tbody tr');
-  assert.ok(blocks.left_alone.length > 3 && warnings.length > 0);
-  for (const {line, why} of blocks.left_alone) assert.ok(rows.includes(`${line}${why}`), why);
+  assert.ok(blocks.left_alone.length > 0 && blocks.machine_positions.length > 3 && warnings.length > 0);
+  const captions = await texts(page, '#remarks caption');
+  assert.ok(captions.includes('In machine coordinates, not changed: 4 blocks'), captions.join());
+  for (const {line, why} of [...blocks.left_alone, ...blocks.machine_positions]) assert.ok(rows.includes(`${line}${why}`), why);
   for (const {line, what} of warnings) assert.ok(rows.includes(`${line}${what}`), what);
 }));
 

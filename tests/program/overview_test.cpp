@@ -81,8 +81,9 @@ TEST_CASE("an overview summarises the whole program") {
   CHECK(overview.remarks.size() == program.remarks.size());
   REQUIRE(overview.path_tolerances.size() == 2);
   CHECK(overview.path_tolerances[1].line == 9);
-  REQUIRE(overview.left_alone.count == 1);
-  CHECK(overview.left_alone.rows[0].line == 7);
+  CHECK(overview.left_alone.count == 0);
+  REQUIRE(overview.machine_positions.count == 1);
+  CHECK(overview.machine_positions.rows[0].line == 7);
   CHECK(overview.first_force_line == 6);
   CHECK(overview.commented_force);
   CHECK(overview.first_cycle_line == 11);

@@ -226,7 +226,9 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
         "line": 5,
         "why": "exact stop: not split"
       }
-    ]
+    ],
+    "machine_positions_count": 0,
+    "machine_positions": []
   },
   "text": {
     "blocks_before": 6,

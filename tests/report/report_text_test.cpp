@@ -159,6 +159,20 @@ TEST_CASE("long lists are cut short in the summary, with their number") {
   CHECK(contains(text, "  line 5: why\n  and 25 more\n"));
 }
 
+TEST_CASE("blocks in machine coordinates are not among the moves that are not corrected") {
+  MadeUpRun run;
+  run.program.left_alone = {{2, "G28 moves to a position of the machine", true}, {5, "a variable"}};
+  const RunReport report = compensated(run, small_compensation());
+  const std::string text = details_text(report, false);
+  CAPTURE(text);
+  CHECK(contains(text, "first lines and reasons\n  line 5: a variable\n  line 5: exact stop: not split\n\n"));
+  CHECK(contains(text,
+                 "In machine coordinates, not changed: 1 block\n  line 2: G28 moves to a position of the "
+                 "machine\n"));
+  CHECK(contains(to_json(report), "\"left_alone_count\": 2,"));
+  CHECK(contains(to_json(report), "\"machine_positions_count\": 1,"));
+}
+
 TEST_CASE("the summary is at most 100 characters wide and has no trailing blanks") {
   MadeUpRun run;
   std::string sentence;

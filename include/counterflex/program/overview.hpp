@@ -28,7 +28,8 @@ struct Overview {
   std::vector<long> tools;        ///< in the spindle during a move, each once, ascending; 0: unknown
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;
-  Capped<LeftAlone> left_alone;
+  Capped<LeftAlone> left_alone;         ///< without the machine positions
+  Capped<LeftAlone> machine_positions;  ///< blocks with LeftAlone::machine_position
   std::optional<int> first_force_line;  ///< line of the first move under a FORCE comment other than OFF
   std::optional<int> first_feed_without_tool;  ///< line of the first feed move whose tool number is unknown
   std::optional<int> first_cycle_line;         ///< line of the first hole of a cycle

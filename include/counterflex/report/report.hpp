@@ -148,6 +148,7 @@ struct BlockCounts {
   std::optional<OtherMoves> others;  ///< the treatment of the others; for `compensate` alone
   std::size_t inserted = 0;          ///< blocks added
   Capped<LeftAlone> left_alone;
+  Capped<LeftAlone> machine_positions;  ///< blocks in machine coordinates; they are not moves
 };
 
 /// The moves of one tool in one operation.

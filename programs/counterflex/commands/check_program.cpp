@@ -164,9 +164,12 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
     extents[std::string(1, "xyz"[i])] = {extent_json(moves.least[i]), extent_json(moves.most[i])};
   json["plan"] = plan_json(facts.planner.plan());
   json["left_alone_count"] = program.left_alone.count;
-  json["left_alone"] = json["remarks"] = nlohmann::ordered_json::array();
+  json["machine_positions_count"] = program.machine_positions.count;
+  json["left_alone"] = json["machine_positions"] = json["remarks"] = nlohmann::ordered_json::array();
   for (const LeftAlone& block : program.left_alone.rows)
     json["left_alone"].push_back({{"line", block.line}, {"why", block.why}});
+  for (const LeftAlone& block : program.machine_positions.rows)
+    json["machine_positions"].push_back({{"line", block.line}, {"why", block.why}});
   for (const Remark& remark : program.remarks)
     json["remarks"].push_back({{"line", remark.line}, {"what", remark.what}});
   return json;

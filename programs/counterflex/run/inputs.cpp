@@ -183,9 +183,10 @@ ProgramFile open_program(const std::string& role, const std::string& path,
 void warn_of(const Overview& program, Command command, Console& console) {
   const std::string left = command == Command::forces ? "no force computed: " : "not corrected: ";
   for (const Remark& remark : program.remarks) console.warning(program.file, remark.line, remark.what);
-  const Capped<LeftAlone>& left_alone = program.left_alone;
-  for (const LeftAlone& block : left_alone.rows) console.warning(program.file, block.line, left + block.why);
-  console.more_warnings(program.file, left_alone.count - left_alone.rows.size());
+  for (const Capped<LeftAlone>* blocks : {&program.machine_positions, &program.left_alone}) {
+    for (const LeftAlone& block : blocks->rows) console.warning(program.file, block.line, left + block.why);
+    console.more_warnings(program.file, blocks->count - blocks->rows.size());
+  }
 }
 
 std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command) {

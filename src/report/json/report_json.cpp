@@ -188,10 +188,13 @@ Json forces_json(const RunReport& report) {
           {"without_force", without_force_json(forces.without)}};
 }
 
+Json left_alone_json(const Capped<LeftAlone>& blocks) {
+  Json rows = Json::array();
+  for (const LeftAlone& block : blocks.rows) rows.push_back({{"line", block.line}, {"why", block.why}});
+  return rows;
+}
+
 Json blocks_json(const BlockCounts& blocks) {
-  Json left_alone = Json::array();
-  for (const LeftAlone& block : blocks.left_alone.rows)
-    left_alone.push_back({{"line", block.line}, {"why", block.why}});
   const auto others = [&](std::size_t OtherMoves::*count) {
     return blocks.others ? Json(*blocks.others.*count) : Json(nullptr);
   };
@@ -204,7 +207,9 @@ Json blocks_json(const BlockCounts& blocks) {
           {"not_corrected", others(&OtherMoves::left)},
           {"inserted", blocks.inserted},
           {"left_alone_count", blocks.left_alone.count},
-          {"left_alone", std::move(left_alone)}};
+          {"left_alone", left_alone_json(blocks.left_alone)},
+          {"machine_positions_count", blocks.machine_positions.count},
+          {"machine_positions", left_alone_json(blocks.machine_positions)}};
 }
 
 Json text_json(const RunReport& report) {

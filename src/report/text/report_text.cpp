@@ -174,6 +174,14 @@ std::string more(std::size_t shown, std::size_t count) {
   return count > shown ? fmt::format("  and {} more\n", count - shown) : "";
 }
 
+std::string rows_text(const Capped<LeftAlone>& list) {
+  const std::size_t shown = std::min(shown_blocks, list.rows.size());
+  std::string text;
+  for (std::size_t i = 0; i < shown; ++i)
+    text += wrapped(line_prefix(list.rows[i].line), list.rows[i].why, 4);
+  return text + more(shown, list.count);
+}
+
 std::string left_alone_text(const RunReport& report, const Ink& ink) {
   const Capped<LeftAlone>& list = report.blocks.left_alone;
   if (list.count == 0) return "";
@@ -184,10 +192,14 @@ std::string left_alone_text(const RunReport& report, const Ink& ink) {
           ? fmt::format("Not corrected individually: {}, first lines and reasons", counted(moves, "move"))
           : "Not or partly corrected: first lines and reasons";
   std::string text = line_break() + ink.warning(heading) + "\n";
-  const std::size_t shown = std::min(shown_blocks, list.rows.size());
-  for (std::size_t i = 0; i < shown; ++i)
-    text += wrapped(line_prefix(list.rows[i].line), list.rows[i].why, 4);
-  return text + more(shown, list.count);
+  return text + rows_text(list);
+}
+
+std::string machine_positions_text(const RunReport& report, const Ink& ink) {
+  const Capped<LeftAlone>& list = report.blocks.machine_positions;
+  if (list.count == 0) return "";
+  return line_break() + ink.bold("In machine coordinates, not changed: " + counted(list.count, "block")) +
+         "\n" + rows_text(list);
 }
 
 std::string warnings_text(const RunReport& report, const Ink& ink) {
@@ -247,7 +259,7 @@ std::string details_text(const RunReport& report, bool colour, bool marks) {
   std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
   text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
   text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
-  text += left_alone_text(report, ink) + warnings_text(report, ink);
+  text += left_alone_text(report, ink) + machine_positions_text(report, ink) + warnings_text(report, ink);
   return text + sanity_text(report.sanity, ink) + assumptions_text(report, ink);
 }
 

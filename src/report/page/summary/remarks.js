@@ -34,6 +34,12 @@
         rows.map(({line, why}) => [link(line), why]), count);
   }
 
+  function machinePositions(run, link) {
+    const {machine_positions: rows = [], machine_positions_count: count} = run.report.blocks;
+    return list(run, `In machine coordinates, not changed: ${words.counted(count, 'block')}`, 'Why',
+        rows.map(({line, why}) => [link(line), why]), count);
+  }
+
   function withoutForce(run, link, units) {
     const {reasons, moves, length_mm: length} = run.report.forces.without_force;
     if (moves === 0) return null;
@@ -44,12 +50,13 @@
     return table(words.ofRun(run, caption), columns, rows);
   }
 
-  /** The sanity block, warnings, blocks that are not corrected with their reasons, and moves without a force. */
+  /** The sanity block, warnings, blocks that are not corrected with their reasons, blocks in machine coordinates, and moves without a force. */
   function render(context) {
     return el('div', {class: 'runs'}, context.runs.map((run, i) => {
       const quantity = run.report.summary.after ? 'after_mm' : 'before_mm';
       const link = (line) => counterflex.lines.link(context, i, line, {quantity});
-      const parts = [sanity(run), warnings(run, link), leftAlone(run, link), withoutForce(run, link, context.units)].filter(Boolean);
+      const parts = [sanity(run), warnings(run, link), leftAlone(run, link), machinePositions(run, link),
+        withoutForce(run, link, context.units)].filter(Boolean);
       return el('div', {class: 'stack'}, parts.length > 0 ? parts : el('p', null, words.ofRun(run, 'No warnings.')));
     }));
   }
