@@ -182,6 +182,7 @@ std::string nothing_reason(const BlockCounts& blocks) {
 std::string reason_of(const RunReport& report) {
   switch (report.verdict) {
     case Verdict::ok:
+    case Verdict::predicted:
       return "";
     case Verdict::partly:
       return partly_reason(report.feed_moves, report.tolerance_mm);
@@ -197,6 +198,7 @@ std::string reason_of(const RunReport& report) {
 std::optional<ErrorKind> error_of(const RunReport& report) {
   switch (report.verdict) {
     case Verdict::ok:
+    case Verdict::predicted:
       return std::nullopt;
     case Verdict::partly:
       if (report.facts.accept_partial || report.command == Command::predict) return std::nullopt;
@@ -216,6 +218,8 @@ void add_verdict(RunReport& report, const RunTally& tally) {
     report.feed_moves.within_mm = report.path_mm;
   }
   report.verdict = report.failure ? Verdict::failed : verdict_of(report.feed_moves);
+  if (report.command == Command::predict && report.verdict == Verdict::ok)
+    report.verdict = Verdict::predicted;
   report.verdict_reason = reason_of(report);
   report.error_kind = error_of(report);
   if (report.error_kind) report.facts.output.clear();

@@ -78,6 +78,9 @@ test('the verdict of the run comes first, and decides the colour', () => {
   const said = (report) => plain(words.verdict({...report_of({before: of(0.1), after: of(0.001)}), ...report}, units.create('um')));
   assert.match(said({verdict: 'OK', verdict_reason: '', output: 'o.nc'}).text, /^OK\. Off by up to/);
   assert.equal(said({verdict: 'OK', output: 'o.nc'}).kind, 'good');
+  const prediction = said({command: 'predict', verdict: 'PREDICTED', summary: {path_mm: 10, before: of(3.7)}});
+  assert.match(prediction.text, /^PREDICTED\. Run as it is, the program is off by up to/);
+  assert.equal(prediction.kind, 'neutral');
   const reason = '54 % of the cutting length, worst 0.0095 mm > 0.005';
   const partly = said({verdict: 'PARTLY', verdict_reason: reason, output: null});
   assert.ok(partly.text.startsWith(`PARTLY (${reason}). `), partly.text);

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/files/file_reader.hpp"
+#include "counterflex/report/formats.hpp"
 #include "made_up_run.hpp"
 
 using namespace counterflex;
@@ -156,6 +157,17 @@ TEST_CASE("a verification counts the moves and blocks of the second program") {
   CHECK(report.blocks.corrected == 3);  // the rapid and two feed moves; the last has no correction
   CHECK(report.text_after->blocks == 10);
   CHECK(report.correction->mm == doctest::Approx(std::sqrt(3 * 81.0)));
+}
+
+TEST_CASE("a prediction whose deviation is above the tolerance is PREDICTED, not OK") {
+  const MadeUpRun run;
+  std::vector<Waypoint> waypoints = made_up_waypoints();
+  waypoints.push_back(cut(3, 6, 50, Vector3(3.7, 0, 0)));
+  const RunReport report = predicted(run, waypoints);
+  CHECK(report.verdict == Verdict::predicted);
+  CHECK(report.verdict_reason.empty());
+  CHECK_FALSE(report.error_kind);
+  CHECK(summary_text(report, {}, false).starts_with("PREDICTED\n"));
 }
 
 TEST_CASE("a prediction has no residual") {

@@ -210,5 +210,5 @@ TEST_CASE("a run in one line names the program, before and after") {
         "made_up.ngc: PARTLY (62 % of the cutting length, 2 feed moves of unknown deviation), 0.5000 mm "
         "before, "
         "0.0050 mm after (model residual)");
-  CHECK(one_line(predicted(run, made_up_waypoints())) == "made_up.ngc: OK, 0.5000 mm before");
+  CHECK(one_line(predicted(run, made_up_waypoints())) == "made_up.ngc: PREDICTED, 0.5000 mm before");
 }

@@ -141,13 +141,14 @@ class ToolDeviationTally {
 // The verdict of a run: one word for all feed moves of a program, and what it is derived from.
 
 enum class Verdict {
-  ok,                 ///< every feed move that was read is within the tolerance (`predict`: was solved)
+  ok,                 ///< every feed move that was read is within the tolerance
+  predicted,          ///< `predict`: every feed move was solved; its deviation is not judged
   partly,             ///< some feed moves miss the tolerance, or their deviation is unknown
   nothing_corrected,  ///< no feed move was corrected, or the program has no move
   failed,             ///< the run stopped: a target was not solved, a limit exceeded, a corrected move missed
 };
 
-/// "OK", "PARTLY", "NOTHING CORRECTED", "FAILED".
+/// "OK", "PREDICTED", "PARTLY", "NOTHING CORRECTED", "FAILED".
 std::string_view to_string(Verdict verdict);
 
 /// The feed moves of a program, by what a run knows of them: lines, arcs, holes of cycles (which

@@ -68,7 +68,7 @@
     return ` ${counted(count, 'move')} ${count === 1 ? 'is' : 'are'} not corrected and not included in these numbers.`;
   }
 
-  const kinds = {OK: 'good', PARTLY: 'warn', 'NOTHING CORRECTED': 'bad', FAILED: 'bad'};
+  const kinds = {PARTLY: 'warn', 'NOTHING CORRECTED': 'bad', FAILED: 'bad'};
 
   /** Moves that are not corrected individually; 0 if the run does not count them. */
   const otherMoves = ({grouped, held, corrected_in_part: inPart, not_corrected: left}) =>
@@ -91,7 +91,7 @@
     if (report.failure) return {text: text.replace(/^Failed/, line), kind};
     const unwritten = report.command === 'compensate' && report.verdict !== 'OK' && !report.output;
     const end = unwritten ? ' No corrected program was written.' : '';
-    return {text: `${line}. ${text}${end}`, kind: report.verdict === 'OK' ? kind : kinds[report.verdict]};
+    return {text: `${line}. ${text}${end}`, kind: kinds[report.verdict] || kind};
   }
 
   /** The first word of a verdict, and the text behind it: ['OK', 'Off by ...']. */

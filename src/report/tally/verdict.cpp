@@ -34,6 +34,8 @@ std::string_view to_string(Verdict verdict) {
   switch (verdict) {
     case Verdict::ok:
       return "OK";
+    case Verdict::predicted:
+      return "PREDICTED";
     case Verdict::partly:
       return "PARTLY";
     case Verdict::nothing_corrected:

@@ -239,6 +239,7 @@ std::string what_was_done(const RunReport& report) {
 std::string verdict_line(const RunReport& report, const Ink& ink) {
   const std::string text = verdict_text(report.verdict, report.verdict_reason) + "\n";
   if (report.verdict == Verdict::ok) return ink.good(text);
+  if (report.verdict == Verdict::predicted) return ink.bold(text);
   return report.verdict == Verdict::partly ? ink.warning(text) : ink.bad(text);
 }
 
