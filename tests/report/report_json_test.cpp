@@ -342,7 +342,9 @@ TEST_CASE("the JSON of a failure has the failure, and null for unsolved results"
   CHECK(report.error_kind == ErrorKind::limit);
   report.exit_status = 6;
   const std::string json = to_json(report);
-  CHECK(contains(json, "\"failure\": {\n    \"exit\": 6,\n    \"line\": 4,\n    \"what\": \"too far\"\n  }"));
+  CHECK(contains(json,
+                 "\"failure\": {\n    \"exit\": 6,\n    \"kind\": \"limit\",\n    \"line\": 4,\n    "
+                 "\"what\": \"too far\"\n  }"));
   CHECK(contains(json,
                  "\"before\": null,\n    \"after\": null,\n    \"sources\": null,\n    \"sensitivity\": "
                  "null,\n    \"air\": null"));

@@ -339,10 +339,34 @@ Json tools_json(const std::vector<UsedTool>& tools) {
   return list;
 }
 
+/// The name of a kind of error: `failure` `kind` of the guide.
+const char* name_of(ErrorKind kind) {
+  switch (kind) {
+    case ErrorKind::internal:
+      return "internal";
+    case ErrorKind::usage:
+      return "usage";
+    case ErrorKind::program_text:
+      return "program";
+    case ErrorKind::machine_or_force:
+      return "machine_or_force";
+    case ErrorKind::not_compensated:
+      return "not_compensated";
+    case ErrorKind::limit:
+      return "limit";
+    case ErrorKind::transient_io:
+      return "transient";
+  }
+  return "internal";
+}
+
 Json failure_json(const RunReport& report) {
   const std::optional<Failure>& failure = report.failure;
   if (!failure) return nullptr;
-  Json json{{"exit", report.exit_status}, {"line", failure->line}, {"what", failure->what}};
+  Json json{{"exit", report.exit_status},
+            {"kind", name_of(failure->kind)},
+            {"line", failure->line},
+            {"what", failure->what}};
   if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
   if (const auto& at = report.failure_place)
     json["at"] = sources_at_json(*at, !at->gravity_mm.isZero(0), !at->preloads_mm.isZero(0));
@@ -364,6 +388,7 @@ std::string failed_json(Command command, std::string_view version, const InputEr
                {"verdict_reason", ""},
                {"failure",
                 {{"exit", exit_status},
+                 {"kind", name_of(error.kind())},
                  {"file", utf8_of_bytes(where.file)},
                  {"line", where.line},
                  {"what", utf8_of_bytes(error.what())}}}});

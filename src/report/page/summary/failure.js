@@ -4,8 +4,6 @@
   const {el} = counterflex.dom;
   const {known} = counterflex.units;
   const {vectors, words} = counterflex;
-  // Exit statuses in reports: programs/guide/safety.md.
-  const exits = {program: 3, notCompensated: 5, limit: 6};
 
   const {causesOf, sizesOf} = vectors;
 
@@ -36,15 +34,15 @@
   }
 
   function curesOf(report) {
-    const {exit} = report.failure;
-    if (exit === exits.limit) return curesOfLimit(report);
-    if (exit === exits.notCompensated && report.command === 'verify') return [
+    const {kind} = report.failure;
+    if (kind === 'limit') return curesOfLimit(report);
+    if (kind === 'not_compensated' && report.command === 'verify') return [
       'Compensate the original program again, with this machine file and these forces.',
       'If the deviation is acceptable, verify with a larger --tolerance-mm.'];
-    if (exit === exits.notCompensated) return [
+    if (kind === 'not_compensated') return [
       'Check the force and the stiffness at this place: counterflex analyze shows the machine there.',
       'Move the part or the work offset (--work) away from this place of the machine.'];
-    if (exit === exits.program) return ['Change the line of the program as the message states.'];
+    if (kind === 'program') return ['Change the line of the program as the message states.'];
     return [];
   }
 
