@@ -17,13 +17,18 @@ test('tolerances are in the chosen unit', () => {
   assert.equal(facts.optionText('max-segment-mm', 2, units.create('um')), '2');
 });
 
-const runs_of = (...mm) => mm.map((tolerance, i) => ({letter: 'AB'[i], report: {options: tolerance === null ? {} : {'tolerance-mm': tolerance}}}));
+const runs_of = (...mm) => mm.map((tolerance, i) => ({letter: mm.length > 1 ? 'AB'[i] : '',
+  report: {options: tolerance === null ? {} : {'tolerance-mm': tolerance}, summary: {after: {}}}}));
 const labels = (...mm) => curves.tolerances({runs: runs_of(...mm), units: units.create('um')}).map(({label}) => label);
 
-test('different tolerances of two runs are both drawn, with their letters', () => {
+test('the label of a tolerance has the letters of the runs that it judges', () => {
   assert.deepEqual(plain(labels(0.005)), ['tolerance 5.0 \u00b5m']);
-  assert.deepEqual(plain(labels(0.005, 0.005)), ['tolerance 5.0 \u00b5m']);
-  assert.deepEqual(plain(labels(0.005, 0.02)), ['tolerance A 5.0 \u00b5m', 'tolerance B 20.0 \u00b5m']);
-  assert.deepEqual(plain(labels(null, 0.02)), ['tolerance B 20.0 \u00b5m']);
+  assert.deepEqual(plain(labels(0.005, 0.005)), ['tolerance of A and B 5.0 \u00b5m']);
+  assert.deepEqual(plain(labels(0.005, 0.02)), ['tolerance of A 5.0 \u00b5m', 'tolerance of B 20.0 \u00b5m']);
+  assert.deepEqual(plain(labels(null, 0.02)), ['tolerance of B 20.0 \u00b5m']);
+  const [predicted, compensated] = runs_of(0.005, 0.005);
+  predicted.report.summary.after = null;
+  const shown = curves.tolerances({runs: [predicted, compensated], units: units.create('um')});
+  assert.deepEqual(plain(shown.map(({label}) => label)), ['tolerance of B 5.0 \u00b5m']);
   assert.deepEqual(plain(labels(null)), []);
 });

@@ -153,6 +153,9 @@
   /** The same in a word or two. */
   const causeInShort = (causes) => leading(causes).map(({key}) => shortNames[key]).join(', ');
 
+  /** "tolerance"; of two runs with their letters: "tolerance of A", "tolerance of A and B". */
+  const tolerance = (letters) => (letters.length > 0 ? `tolerance of ${letters.join(' and ')}` : 'tolerance');
+
   /** A text of the report, which is ASCII, with the spelling of units on pages. */
   const unitsOf = (text) => text.replace(/\bN\/um\b/g, 'N/\u00b5m');
 
@@ -162,5 +165,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName, toolAndSize, unitsOf};
+  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName, toolAndSize, tolerance, unitsOf};
 })();

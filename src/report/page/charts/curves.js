@@ -55,13 +55,16 @@
   const textIn = (part, units) => (v) => (part === 'rotation_' ? `${v.toFixed(4)} deg` : units.format(v / units.scale));
 
   /**
-   * Tolerances of the runs, each once: [{mm, label}]; with different tolerances the label has the letter of the run.
+   * Tolerances of the runs that have a residual, each once: [{mm, label}]. On a page of two runs the label has the letters
+   * of the runs with this tolerance.
    */
   function tolerances({runs, units}) {
-    const all = runs.map((run) => counterflex.summary.tolerance(run.report));
-    const common = all.every((mm) => mm === all[0]);
-    const label = (mm, i) => `tolerance ${common ? '' : `${runs[i].letter} `}${units.format(mm)}`;
-    return all.map((mm, i) => ({mm, label: label(mm, i)})).filter(({mm}, i) => mm < Infinity && (i === 0 || !common));
+    const judged = runs.filter(({report}) => report.summary.after).map(({letter, report}) => ({letter, mm: counterflex.summary.tolerance(report)}));
+    const sizes = [...new Set(judged.map(({mm}) => mm))].filter((mm) => mm < Infinity);
+    return sizes.map((mm) => {
+      const letters = judged.filter((run) => run.mm === mm && run.letter).map(({letter}) => letter);
+      return {mm, label: `${counterflex.words.tolerance(letters)} ${units.format(mm)}`};
+    });
   }
 
   /** The tolerances as levels on a scale of signed values or of sizes. */

@@ -70,9 +70,9 @@
   }
 
   /** A triangle at the tolerance, or a note if it is outside the scale. */
-  function toleranceMark(context, theme, {range, tolerance_mm: tolerance}, units, x, y, width) {
+  function toleranceMark(context, theme, {range, letter, tolerance_mm: tolerance}, units, x, y, width) {
     if (!(tolerance > 0)) return;
-    const text = `tolerance ${units.format(tolerance)}`;
+    const text = `${counterflex.words.tolerance(letter ? [letter] : [])} ${units.format(tolerance)}`;
     const note = (words) => write(context, theme, words, x, y + 36, 'left', theme.muted);
     if (tolerance >= range.high) return note(`all within the ${text}`);
     if (tolerance < range.low) return note(`all above the ${text}`);
@@ -88,7 +88,7 @@
 
   const barWidth = (size) => Math.round(Math.min(260, 0.6 * size.width));
 
-  /** The scale of colours, upper left: {title, range: {low, high} in mm, tolerance_mm}; without a largest value only the title. */
+  /** The scale of colours, upper left: {title, range: {low, high} in mm, letter of the run, tolerance_mm}; without a largest value only the title. */
   function colourBar(context, size, theme, bar, units) {
     if (!(bar.range.high > 0)) return write(context, theme, bar.title, edge, edge + 6);
     const width = barWidth(size);

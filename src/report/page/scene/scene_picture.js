@@ -133,7 +133,7 @@
     view.draw(context, size, {theme, camera, layers: layers(shown, theme), reach: reachOf(camera.centre, shown.box)});
     counterflex.overlay.draw(context, size, {theme, camera, units,
       marks: marked.map((each) => mark(each, shown, project, units)),
-      bar: {title: titleOf(shown, units.label), range: shown.range, tolerance_mm: shown.tolerance_mm},
+      bar: {title: titleOf(shown, units.label), range: shown.range, letter: shown.letter, tolerance_mm: shown.tolerance_mm},
       notes: notes(shown, units)});
   }
 
