@@ -166,8 +166,8 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
 void add_residual(RunReport& report, const RunTally& tally, const Measures& measures) {
   report.after = known(measures.after);
   if (report.facts.attribution && report.after) report.air = known(measures.air);
-  report.worst = tally.path().worst(&WorstRow::after_mm);
   report.correction = known(measures.correction);
+  report.worst = tally.path().worst(&WorstRow::after_mm);
   report.tools_off = tools_off(measures, true);
 }
 

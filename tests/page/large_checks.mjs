@@ -33,6 +33,9 @@ test('the largest deviation of a long program is shown as a sum of its causes', 
   assert.match(await page.innerText('#place h3'), new RegExp(`^Line ${before.max_line}$`));
   const cells = await texts(page, '#place .vector-sum tr.total td');
   at_worst.before_mm.forEach((mm, k) => assert.ok(Math.abs(Number(cells[k].replace('\u2212', '-')) - 1000 * mm) < 0.51, cells[k]));
+  assert.match(await page.innerText('#place .vector-sum caption'), new RegExp(`^Causes at the largest deviation before, in line ${before.max_line}, in `));
+  assert.match(await page.innerText('#place .merged'), /"Up to" is the largest value of a stretch of \d+ points/);
+  assert.match(await page.innerText('#sources'), /the drawn causes need not add up/);
   assert.match(await page.innerText('#place .cause'), /^Off by [\d.]+ \u00b5m before: .*After: up to [\d.]+ \u00b5m\.$/);
 }));
 

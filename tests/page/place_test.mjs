@@ -50,6 +50,9 @@ test('a stretch of several waypoints has the causes of the largest deviation of 
   const {vectors, causes, place_mm} = plain(place.ofStretch(run, 1));
   assert.deepEqual([vectors.before.vector, causes.map(({vector}) => vector[0]), place_mm], [[3, 0, 0], [1.5, 0.5, 1], [7, 0, 0]]);
   for (const [i, row] of [[0, undefined], [2, undefined], [1, {line: 7}]]) assert.equal(place.ofStretch(run, i, row).causes.length, 0);
+  assert.match(place.mergedText(run, place.ofStretch(run, 1)), /^The causes are those at the largest deviation before\. .*stretch of 2 points\.$/);
+  assert.match(place.mergedText(run, place.ofStretch(run, 2)), /^This is a stretch of 2 points\..* only for the largest deviation before, in line 8\.$/);
+  assert.equal(place.mergedText(run_of([5], [1]), place.ofStretch(run_of([5], [1]), 0)), '');
   const row = {line: 9, before_mm: 1.5, after_mm: 0.0005};
   assert.deepEqual(told(run, 2, row), [1.5, false, null, 0.0005]);
 });

@@ -127,12 +127,11 @@
     });
   }
 
-  /** A note on curves of merged waypoints. */
-  function mergedNote(context) {
-    const merged = context.runs.map((run) => (run.curves ? run.curves.waypoints_per_stretch : 1));
-    if (Math.max(...merged) === 1) return null;
-    const stretches = `Each stretch of ${merged.join(' and ')} points`;
-    return el('p', {class: 'note'}, `${stretches} is drawn with its least and its largest value; all peaks are visible.`);
+  /** Notes on curves of merged waypoints, one for each run that has them. */
+  function mergedNotes({runs}, end) {
+    const points = ({curves}) => (curves ? curves.waypoints_per_stretch : 1);
+    return runs.filter((run) => points(run) > 1).map((run) => el('p', {class: 'note'},
+        counterflex.words.ofRun(run, `Each stretch of ${points(run)} points is drawn with its least and its largest value${end}.`)));
   }
 
   const looks = {
@@ -152,7 +151,7 @@
     const choice = componentChoice(context, state, 'component', present);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
     return {plots: state.plots, content: [controls, counterflex.plotGroup.controls(context, group),
-      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNote(context),
+      state.plots.map((plot) => plot.node), el('p', {class: 'note help'}, help), mergedNotes(context, '; all peaks are visible'),
       thinnedNote(context, group)]};
   }
 
@@ -203,7 +202,8 @@
     update();
     const choice = componentChoice(context, state, 'source-component', axes);
     const controls = el('div', {class: 'controls'}, choice, logBox(state));
-    return {plots: state.plots, content: [controls, state.plots[0].node, note]};
+    return {plots: state.plots, content: [controls, state.plots[0].node, note,
+      mergedNotes(context, ' of each cause. These may be at different points, so the drawn causes need not add up')]};
   }
 
   const forceSeries = [

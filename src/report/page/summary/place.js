@@ -42,7 +42,8 @@
 
   /**
    * All values at one place, the end of a stretch: {line, last_line, s_mm, place_mm, before_mm, about: whether it is
-   * interpolated, after_mm, merged: whether sizes are the largest of several waypoints, vectors: {before, after, correction},
+   * interpolated, after_mm, points: number of waypoints of the stretch, merged: whether there are several, so that sizes are the
+   * largest of them, vectors: {before, after, correction},
    * each {vector, about} or null, causes: vectors, sizes, force_N, tool, operation, text}. `row`: of the worst blocks, if it
    * was chosen there.
    */
@@ -55,7 +56,7 @@
     return {
       line: row.line || c.first_line[i], last_line: row.line || c.last_line[i], s_mm: c.s_mm[i],
       place_mm: Array.from(c.place_mm.subarray(3 * i, 3 * i + 3)),
-      before_mm: before ? norm(before.vector) : at(c, 'before_mm', i), merged, about: Boolean(before && before.about),
+      before_mm: before ? norm(before.vector) : at(c, 'before_mm', i), merged, points: c.waypoints_per_stretch, about: Boolean(before && before.about),
       after_mm: at(c, 'after_mm', i), vectors, causes, sizes: causes.length > 0 ? sizesOf(causes) : row.causes,
       force_N: at(c, 'force_N', i), tool: operation ? operation.tool : 0, operation: operation ? operation.operation : '',
       text: row.text || lineText(run, c.first_line[i]),
@@ -83,19 +84,29 @@
 
   function facts(place, units) {
     const where = (place.place_mm || []).map((x) => units.lengthNumber(x)).join(', ');
+    const ofForce = place.merged ? 'Cutting force, largest of the stretch' : 'Cutting force';
     return el('dl', {class: 'facts'},
-        fact('Cutting force', known(place.force_N) ? `${fixed(place.force_N, 1)} N` : 'unknown'),
+        fact(ofForce, known(place.force_N) ? `${fixed(place.force_N, 1)} N` : 'unknown'),
         fact('Tool', words.toolName(place.tool)), place.operation && fact('Operation', place.operation),
         known(place.s_mm) && fact('Place on the path', units.length(place.s_mm)),
         where && fact('Machine x, y, z', `${where} ${units.lengthLabel}`));
   }
 
-  function vectorTable({vectors, causes}, units) {
+  function vectorTable({line, merged, vectors, causes}, units) {
     if (!vectors.before || causes.length === 0) return null;
     const others = [['Correction', vectors.correction], ['After (model residual)', vectors.after]]
         .filter(([, value]) => value).map(([name, value]) => [name, value.vector]);
-    return counterflex.vectorSum.render(`Causes at this place, in ${units.words}, axes of the machine`, causes, vectors.before.vector,
-        others, units);
+    const where = merged ? `Causes at the largest deviation before, in line ${line}` : 'Causes at this place';
+    return counterflex.vectorSum.render(`${where}, in ${units.words}, axes of the machine`, causes, vectors.before.vector, others, units);
+  }
+
+  /** What the numbers of a stretch of several waypoints are; '' for a single one. */
+  function mergedText({report}, {merged, points, causes}) {
+    if (!merged) return '';
+    const {line} = (report.summary.sources || {}).at_worst || {};
+    if (causes.length > 0) return `The causes are those at the largest deviation before. "Up to" is the largest value of a stretch of ${points} points.`;
+    const sum = line ? ` Its causes are not shown as a sum: that is shown only for the largest deviation before, in line ${line}.` : '';
+    return `This is a stretch of ${points} points. "Up to" is the largest value in it.${sum}`;
   }
 
   /** The card of a place: its line, and there the deviation, its causes as a sum of vectors, and the force. */
@@ -104,8 +115,9 @@
     return el('div', {class: 'place-card', 'data-line': place.line},
         el('h3', null, words.ofRun(run, lines)),
         place.text ? el('pre', null, el('code', null, place.text)) : null,
-        sentence(place, units), vectorTable(place, units), facts(place, units));
+        sentence(place, units), vectorTable(place, units),
+        place.merged ? el('p', {class: 'note merged'}, mergedText(run, place)) : null, facts(place, units));
   }
 
-  counterflex.place = {card, sentence, ofStretch, ofRow};
+  counterflex.place = {card, sentence, mergedText, ofStretch, ofRow};
 })();
