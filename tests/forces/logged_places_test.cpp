@@ -4,8 +4,8 @@
 #include <random>
 
 #include "counterflex/geometry/types.hpp"
-#include "forces/path/log_matching.hpp"
-#include "forces/path/point_grid.hpp"
+#include "forces/path/profile/log_matching.hpp"
+#include "forces/path/profile/point_grid.hpp"
 #include "forces/read/csv_header.hpp"
 
 using namespace counterflex;

@@ -14,7 +14,7 @@
 #include "counterflex/settings/jobs_file.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "process/version.hpp"
-#include "run/corrected_header.hpp"
+#include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
 #include "run/outputs.hpp"
 #include "settings/layers.hpp"

@@ -4,7 +4,7 @@
 
 #include "commands/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
-#include "run/header_hashes.hpp"
+#include "run/header/header_hashes.hpp"
 #include "run/outputs.hpp"
 #include "run/run.hpp"
 

@@ -21,7 +21,7 @@
 #include "process/exit_status.hpp"
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
-#include "run/corrected_header.hpp"
+#include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
 #include "run/outputs.hpp"
 #include "settings/layers.hpp"

@@ -9,7 +9,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "process/version.hpp"
-#include "run/header.hpp"
+#include "run/header/header.hpp"
 
 namespace counterflex::cli {
 namespace {

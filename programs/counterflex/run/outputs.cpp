@@ -15,7 +15,7 @@
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
-#include "run/corrected_header.hpp"
+#include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
 #include "settings/output_names.hpp"
 

@@ -15,7 +15,7 @@
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"
 #include "run/failed_line.hpp"
-#include "run/header.hpp"
+#include "run/header/header.hpp"
 #include "run/program_axes.hpp"
 #include "run/reading.hpp"
 #include "run/sanity.hpp"

@@ -3,11 +3,11 @@
 #include <algorithm>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/coverage.hpp"
-#include "forces/path/position_log.hpp"
-#include "forces/path/profile_ends.hpp"
-#include "forces/path/program_kinds.hpp"
-#include "forces/path/rules_in_use.hpp"
+#include "forces/path/profile/position_log.hpp"
+#include "forces/path/profile/profile_ends.hpp"
+#include "forces/path/rules/coverage.hpp"
+#include "forces/path/rules/program_kinds.hpp"
+#include "forces/path/rules/rules_in_use.hpp"
 #include "forces/read/selector_text.hpp"
 
 namespace counterflex {

@@ -5,7 +5,7 @@
 #include <span>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/alignment.hpp"
+#include "forces/path/profile/alignment.hpp"
 #include "forces/path/raw_forces.hpp"
 #include "forces/turning_axes.hpp"
 

@@ -7,7 +7,7 @@
 #include <cassert>
 #include <cmath>
 
-#include "forces/path/profile_cover.hpp"
+#include "forces/path/profile/profile_cover.hpp"
 #include "forces/turning_axes.hpp"
 
 namespace counterflex {

@@ -5,7 +5,7 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/coverage.hpp"
+#include "forces/path/rules/coverage.hpp"
 
 namespace counterflex {
 

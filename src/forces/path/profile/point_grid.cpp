@@ -1,4 +1,4 @@
-#include "forces/path/point_grid.hpp"
+#include "forces/path/profile/point_grid.hpp"
 
 #include <cmath>
 

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/log_matching.hpp"
-#include "forces/path/point_grid.hpp"
+#include "forces/path/profile/log_matching.hpp"
+#include "forces/path/profile/point_grid.hpp"
 
 namespace counterflex {
 

@@ -1,4 +1,4 @@
-#include "forces/path/log_matching.hpp"
+#include "forces/path/profile/log_matching.hpp"
 
 #include <algorithm>
 #include <cstdint>

@@ -1,4 +1,4 @@
-#include "forces/path/rules_in_use.hpp"
+#include "forces/path/rules/rules_in_use.hpp"
 
 #include <fmt/format.h>
 

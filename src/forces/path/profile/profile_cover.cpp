@@ -1,4 +1,4 @@
-#include "forces/path/profile_cover.hpp"
+#include "forces/path/profile/profile_cover.hpp"
 
 #include <algorithm>
 #include <limits>

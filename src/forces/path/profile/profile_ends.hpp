@@ -4,7 +4,7 @@
 #include <string>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/alignment.hpp"
+#include "forces/path/profile/alignment.hpp"
 
 namespace counterflex {
 

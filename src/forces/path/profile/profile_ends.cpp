@@ -1,4 +1,4 @@
-#include "forces/path/profile_ends.hpp"
+#include "forces/path/profile/profile_ends.hpp"
 
 #include <fmt/format.h>
 
@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include "counterflex/geometry/types.hpp"
-#include "forces/path/position_log.hpp"
-#include "forces/path/profile_cover.hpp"
+#include "forces/path/profile/position_log.hpp"
+#include "forces/path/profile/profile_cover.hpp"
 #include "forces/read/csv_header.hpp"
 
 namespace counterflex {

@@ -1,4 +1,4 @@
-#include "forces/path/position_log.hpp"
+#include "forces/path/profile/position_log.hpp"
 
 #include <fmt/format.h>
 
@@ -7,7 +7,7 @@
 #include <limits>
 
 #include "counterflex/geometry/types.hpp"
-#include "forces/path/alignment.hpp"
+#include "forces/path/profile/alignment.hpp"
 
 namespace counterflex {
 namespace {

@@ -1,4 +1,4 @@
-#include "forces/path/rule_index.hpp"
+#include "forces/path/rules/rule_index.hpp"
 
 #include <algorithm>
 

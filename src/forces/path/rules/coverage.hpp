@@ -5,9 +5,9 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/alignment.hpp"
-#include "forces/path/profile_cover.hpp"
-#include "forces/path/rule_index.hpp"
+#include "forces/path/profile/alignment.hpp"
+#include "forces/path/profile/profile_cover.hpp"
+#include "forces/path/rules/rule_index.hpp"
 
 namespace counterflex {
 

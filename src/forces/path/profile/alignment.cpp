@@ -1,4 +1,4 @@
-#include "forces/path/alignment.hpp"
+#include "forces/path/profile/alignment.hpp"
 
 #include <fmt/format.h>
 

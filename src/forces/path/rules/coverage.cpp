@@ -1,4 +1,4 @@
-#include "forces/path/coverage.hpp"
+#include "forces/path/rules/coverage.hpp"
 
 #include <fmt/format.h>
 

@@ -10,7 +10,7 @@ import sys
 import tempfile
 import time
 
-DATA = os.path.join(os.path.dirname(os.path.realpath(__file__)), "data")
+DATA = os.path.join(os.path.dirname(os.path.realpath(__file__)), "../data")
 TEMPORARY = re.compile(r".*\.[0-9]+-[0-9]+\.tmp")
 LIMIT = 120  # s, for every wait
 

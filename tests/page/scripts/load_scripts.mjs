@@ -4,7 +4,7 @@ import path from 'node:path';
 import {fileURLToPath} from 'node:url';
 import vm from 'node:vm';
 
-const folder = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../src/report/page');
+const folder = path.join(path.dirname(fileURLToPath(import.meta.url)), '../../../src/report/page');
 
 const paths = fs.readFileSync(path.join(folder, 'scripts.txt'), 'utf8').trim().split('\n');
 

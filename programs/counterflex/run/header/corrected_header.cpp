@@ -1,4 +1,4 @@
-#include "run/corrected_header.hpp"
+#include "run/header/corrected_header.hpp"
 
 #include <algorithm>
 #include <cctype>

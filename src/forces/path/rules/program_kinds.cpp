@@ -1,11 +1,11 @@
-#include "forces/path/program_kinds.hpp"
+#include "forces/path/rules/program_kinds.hpp"
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <algorithm>
 
-#include "forces/path/rule_index.hpp"
+#include "forces/path/rules/rule_index.hpp"
 #include "forces/read/selector_text.hpp"
 
 namespace counterflex {

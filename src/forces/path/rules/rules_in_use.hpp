@@ -6,7 +6,7 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/rule_index.hpp"
+#include "forces/path/rules/rule_index.hpp"
 
 namespace counterflex {
 

@@ -1,4 +1,4 @@
-#include "run/header.hpp"
+#include "run/header/header.hpp"
 
 #include <fmt/format.h>
 

@@ -1,11 +1,11 @@
-#include "run/header_hashes.hpp"
+#include "run/header/header_hashes.hpp"
 
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <sstream>
 
-#include "run/header.hpp"
+#include "run/header/header.hpp"
 
 namespace counterflex::cli {
 namespace {

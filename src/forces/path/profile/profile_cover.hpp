@@ -3,7 +3,7 @@
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
-#include "forces/path/alignment.hpp"
+#include "forces/path/profile/alignment.hpp"
 
 namespace counterflex {
 
