@@ -4,15 +4,15 @@
 #include <utility>
 
 #include "counterflex/program/program_reader.hpp"
-#include "program/apt/reader.hpp"
-#include "program/fanuc/reader.hpp"
 #include "program/gcode/line_reader.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/klartext/reader.hpp"
-#include "program/kuka/reader.hpp"
-#include "program/rapid/reader.hpp"
-#include "program/ur/reader.hpp"
-#include "program/yaskawa/reader.hpp"
+#include "program/robot/apt/reader.hpp"
+#include "program/robot/fanuc/reader.hpp"
+#include "program/robot/kuka/reader.hpp"
+#include "program/robot/rapid/reader.hpp"
+#include "program/robot/ur/reader.hpp"
+#include "program/robot/yaskawa/reader.hpp"
 
 namespace counterflex {
 namespace {

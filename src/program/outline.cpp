@@ -2,8 +2,8 @@
 
 #include <algorithm>
 
-#include "program/apt/lex.hpp"
-#include "program/kuka/names.hpp"
+#include "program/robot/apt/lex.hpp"
+#include "program/robot/kuka/names.hpp"
 #include "program/siemens/signs.hpp"
 #include "program/text/scanner.hpp"
 

@@ -6,8 +6,8 @@
 
 #include "program/dialect.hpp"
 #include "program/klartext/labels.hpp"
-#include "program/kuka/loops.hpp"
-#include "program/rapid/module.hpp"
+#include "program/robot/kuka/loops.hpp"
+#include "program/robot/rapid/module.hpp"
 
 namespace counterflex {
 

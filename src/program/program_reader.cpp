@@ -4,10 +4,10 @@
 #include <cmath>
 #include <utility>
 
-#include "program/apt/lex.hpp"
 #include "program/block_reader.hpp"
 #include "program/detect/choose_dialect.hpp"
 #include "program/klartext/lex.hpp"
+#include "program/robot/apt/lex.hpp"
 
 namespace counterflex {
 namespace {

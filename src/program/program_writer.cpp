@@ -1,14 +1,14 @@
 #include "program/program_writer.hpp"
 
-#include "program/apt/writer.hpp"
 #include "program/dialect.hpp"
-#include "program/fanuc/writer.hpp"
 #include "program/klartext/write/writer.hpp"
-#include "program/kuka/writer.hpp"
-#include "program/rapid/writer.hpp"
-#include "program/ur/writer.hpp"
+#include "program/robot/apt/writer.hpp"
+#include "program/robot/fanuc/writer.hpp"
+#include "program/robot/kuka/writer.hpp"
+#include "program/robot/rapid/writer.hpp"
+#include "program/robot/ur/writer.hpp"
+#include "program/robot/yaskawa/writer.hpp"
 #include "program/write/gcode_writer.hpp"
-#include "program/yaskawa/writer.hpp"
 
 namespace counterflex {
 

@@ -1,18 +1,18 @@
 #include "counterflex/program/read_program.hpp"
 
-#include "program/apt/lex.hpp"
 #include "program/block_reader.hpp"
 #include "program/detect/choose_dialect.hpp"
 #include "program/expand/expand.hpp"
-#include "program/fanuc/reader.hpp"
 #include "program/klartext/expand.hpp"
 #include "program/klartext/reader.hpp"
-#include "program/kuka/lex.hpp"
-#include "program/rapid/lex.hpp"
+#include "program/robot/apt/lex.hpp"
+#include "program/robot/fanuc/reader.hpp"
+#include "program/robot/kuka/lex.hpp"
+#include "program/robot/rapid/lex.hpp"
 #include "program/robot/reader.hpp"
+#include "program/robot/ur/lex.hpp"
+#include "program/robot/yaskawa/reader.hpp"
 #include "program/text/operation.hpp"
-#include "program/ur/lex.hpp"
-#include "program/yaskawa/reader.hpp"
 
 namespace counterflex {
 

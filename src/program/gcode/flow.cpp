@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "program/gcode/contour.hpp"
-#include "program/gcode/other_moves.hpp"
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/other_moves.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {

@@ -4,8 +4,8 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "program/gcode/contour.hpp"
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/read_move.hpp"
 
 namespace counterflex {
 namespace {

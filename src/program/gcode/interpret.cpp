@@ -4,13 +4,13 @@
 
 #include <algorithm>
 
-#include "program/gcode/contour.hpp"
 #include "program/gcode/flow.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/other_moves.hpp"
+#include "program/gcode/moves/read_arc.hpp"
+#include "program/gcode/moves/read_cycle.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/offsets.hpp"
-#include "program/gcode/other_moves.hpp"
-#include "program/gcode/read_arc.hpp"
-#include "program/gcode/read_cycle.hpp"
-#include "program/gcode/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/gcode/words/modal_words.hpp"
 #include "program/siemens/cycles.hpp"

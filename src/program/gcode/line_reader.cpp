@@ -5,7 +5,7 @@
 #include "program/detect/choose_dialect.hpp"
 #include "program/evaluate/evaluate.hpp"
 #include "program/expand/expand.hpp"
-#include "program/gcode/contour.hpp"
+#include "program/gcode/moves/contour.hpp"
 #include "program/gcode/words/plain_lines.hpp"
 
 namespace counterflex {

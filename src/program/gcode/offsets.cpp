@@ -4,9 +4,9 @@
 
 #include <algorithm>
 
-#include "program/gcode/contour.hpp"
 #include "program/gcode/frames.hpp"
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 
 namespace counterflex {

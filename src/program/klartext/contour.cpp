@@ -1,5 +1,5 @@
 // Contours under RL and RR, with the blocks that approach and leave them.
-#include "program/gcode/contour.hpp"
+#include "program/gcode/moves/contour.hpp"
 
 #include <algorithm>
 #include <array>

@@ -2,7 +2,7 @@
 
 #include <algorithm>
 
-#include "program/gcode/contour.hpp"
+#include "program/gcode/moves/contour.hpp"
 #include "program/klartext/codes.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"

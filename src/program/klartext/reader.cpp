@@ -4,7 +4,7 @@
 
 #include "program/detect/choose_dialect.hpp"
 #include "program/expand/expand.hpp"
-#include "program/gcode/contour.hpp"
+#include "program/gcode/moves/contour.hpp"
 
 namespace counterflex {
 

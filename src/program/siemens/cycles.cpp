@@ -3,7 +3,7 @@
 #include <algorithm>
 
 #include "counterflex/files/text.hpp"
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/text/scanner.hpp"
 

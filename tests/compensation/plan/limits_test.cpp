@@ -21,8 +21,9 @@ const char* const cuts = "G21 G90\nG0 X0. Y0. Z0.\nG1 X10. F600\nG1 Y100.\nM30\n
 
 TEST_CASE("a correction above the limit is refused at its line") {
   Order order{.machine = load_machine(orthoglide_b), .text = cuts, .force = constant_force(milling())};
+  order.decimals = 6;
   const auto [size, line] = largest_correction(compensated(Shop(order)).waypoints);
-  const double rounding = 1e-6;  // of the written words: the limit holds before they are rounded
+  const double rounding = 1e-9;  // of the written words: the limit holds before they are rounded
   order.max_correction = size + rounding;
   CHECK(!Shop(order).run().failure);
   order.max_correction = size - rounding;

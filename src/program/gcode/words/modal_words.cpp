@@ -1,7 +1,7 @@
 #include "program/gcode/words/modal_words.hpp"
 
-#include "program/gcode/contour.hpp"
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 
 namespace counterflex {

@@ -2,7 +2,7 @@
 
 #include <limits>
 
-#include "program/gcode/read_move.hpp"
+#include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/words/plain_words.hpp"
 #include "program/text/line_length.hpp"
 

@@ -1,0 +1,115 @@
+#include "program/gcode/moves/other_moves.hpp"
+
+#include <fmt/format.h>
+
+#include "program/expand/expand.hpp"
+#include "program/gcode/moves/contour.hpp"
+#include "program/gcode/moves/read_move.hpp"
+#include "program/gcode/remarks.hpp"
+
+namespace counterflex {
+
+void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
+  const bool reference = found.code->action == Action::reference_move;
+  if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
+    refuse_word(block, r, *found.word, "G53 has no axis word");
+  const bool all = !has_axis_word(r.sorted);
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) move_by_machine(r, axis);
+  if (all || r.sorted.has_any("ABC")) r.state.known_angles.fill(false);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
+void apply_retract(const Block& block, Reading& r) {
+  move_by_machine(r, 2);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = "M25 may move Z to a position of the machine";
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
+void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  move.may_insert_words = false;
+  if (!end_known)
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
+  if (why_not_followed(r).empty()) note_uncorrected(block, r, what);
+  finish_move(r, move);
+}
+
+void read_own_way(const Block& block, Reading& r, const FoundG& found) {
+  Move& move = start_move(block, r, Motion::feed);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  const bool known = found.code->bit != unknown;
+  note_uncorrected(block, r,
+                   known ? fmt::format("G{} has a motion defined by the control", found.word->value)
+                         : fmt::format("G{} is not known in dialect {}", found.word->value, r.dialect.name));
+  finish_move(r, move);
+}
+
+void read_engraving(const Block& block, Reading& r, const FoundG& found) {
+  bool plain = !r.state.relative && why_not_followed(r).empty();
+  for (const char letter : {'X', 'Y', 'Z', 'R'})
+    if (const Word* word = r.sorted.word(letter)) plain = plain && word->literal;
+  const Word* plane = r.sorted.word('R');
+  if (!plain || r.sorted.word('Z') == nullptr || plane == nullptr) return read_own_way(block, r, found);
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  CycleMove& text = move.cycle.emplace();
+  text.bottom_mm = r.state.position_mm.z();
+  text.bottom_word = move.words[2];
+  text.retract_mm = length_mm(r, *plane);
+  text.retract_word = AxisWord{plane->number, plane->decimals};
+  text.may_insert_bottom = false;
+  move.words[2].reset();
+  // The end of the text is unknown, and so are the words of an interrupted cycle.
+  r.state.known.fill(false);
+  r.state.cycle = {};
+  note_uncorrected(block, r, "the control engraves text");
+  finish_move(r, move);
+}
+
+void read_pocket(const Block& block, Reading& r) {
+  Move& move = start_move(block, r, Motion::feed);
+  place_words(block, r, move);
+  move.handling = Handling::held;
+  move.may_insert_words = false;
+  if (why_not_followed(r).empty()) note_uncorrected(block, r, "the control cuts a round pocket");
+  finish_move(r, move);
+}
+
+void read_call(const Block& block, Reading& r) {
+  r.variables.clear();
+  Move& move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  move.relative = false;
+  std::string why(why_not_expanded(r.program.expansion, block.text_line));
+  if (!why.empty()) why = ", not expanded: " + why;
+  if (!r.options.expand_subprograms && may_expand(r.dialect))
+    why = " (--expand-subprograms replaces the call by its text)";
+  note_uncorrected(block, r, "a subprogram is called" + why);
+  finish_move(r, move);
+  end_contour(r);
+  r.state.unknown_modes |=
+      unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
+  add_remark(r.program, block.line,
+             "assumed: subprograms do not change the unit, the work offset, the tool length and G40 to G42");
+}
+
+void read_anything(const Block& block, Reading& r, std::string_view why) {
+  r.state.unknown_modes = all_unknown_modes;
+  r.variables.clear();
+  Move& move = start_move(block, r, Motion::rapid);
+  for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
+  note_uncorrected(block, r, why);
+  finish_move(r, move);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,168 @@
+#include "program/gcode/moves/read_cycle.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "program/gcode/moves/read_move.hpp"
+
+namespace counterflex {
+namespace {
+
+PackedAxisWord axis_word(const Word* word) {
+  if (word == nullptr || !word->literal) return std::nullopt;
+  return AxisWord{word->number, word->decimals};
+}
+
+void keep_sticky(const Reading& r, const Word* word, std::optional<double>& value) {
+  if (word == nullptr) return;
+  value.reset();
+  if (word->literal) value = length_mm(r, *word);
+}
+
+/// L, or K of shop controls; 1 without such a word.
+int repeats_of(const Reading& r) {
+  const Word* word = r.sorted.word('L');
+  if (word == nullptr && r.dialect.macro_words) word = r.sorted.word('K');
+  if (word == nullptr) return 1;
+  return word->literal && word->value >= 0 && word->value < 10000 ? static_cast<int>(word->value) : 1;
+}
+
+bool plain_words(const Reading& r) {
+  for (const char letter : {'X', 'Y', 'Z', 'R', 'L', 'K'})
+    if (const Word* word = r.sorted.word(letter); word != nullptr && !word->literal) return false;
+  return true;
+}
+
+/// Z of the retract plane and of the bottom. Without R the tool returns to the height at which it began.
+void set_levels(const ModalState& state, CycleMove& hole) {
+  const CycleState& cycle = state.cycle;
+  const double initial = cycle.initial.value_or(0);
+  hole.retract_mm = cycle.retract ? *cycle.retract + (cycle.relative ? initial : 0) : initial;
+  hole.bottom_mm = cycle.bottom.value_or(hole.retract_mm) + (cycle.relative ? hole.retract_mm : 0);
+}
+
+/// The height at which the cycle leaves the tool. The retract plane is known if the hole has R, or if the
+/// tool is already at the plane. It is then known in the corrected text, too.
+void set_height_after_hole(ModalState& state, const CycleMove& hole) {
+  CycleState& cycle = state.cycle;
+  const bool has_retract = hole.retract_word && (!cycle.relative || cycle.initial);
+  const bool stays = state.known[2] && cycle.left_at_retract && state.position_mm.z() == hole.retract_mm;
+  const bool retract_known = has_retract || stays;
+  const bool at_retract = hole.returns_to_retract || (cycle.initial && hole.retract_mm >= *cycle.initial);
+  if (at_retract) {
+    state.known[2] = retract_known && (hole.returns_to_retract || cycle.initial);
+    state.position_mm.z() = hole.retract_mm;
+  } else {
+    state.known[2] = cycle.initial.has_value();
+    state.position_mm.z() = cycle.initial.value_or(0);
+  }
+  cycle.left_at_retract = at_retract;
+}
+
+/// X and Y. Relative words apply again in each repeat.
+void place_hole(Reading& r, Move& move, int repeats, bool followed) {
+  ModalState& state = r.state;
+  for (std::size_t axis = 0; axis < 2; ++axis) {
+    const Word* word = r.sorted.word(letters_of_axes[axis]);
+    if (word == nullptr) continue;
+    if (!word->literal || !followed || (state.relative && !state.known[axis])) {
+      fix_axis(r, move, axis);
+      continue;
+    }
+    move.words[axis] = AxisWord{word->number, word->decimals};
+    double& place = coordinate(state.position_mm, axis);
+    place = state.relative ? place + repeats * length_mm(r, *word) : length_mm(r, *word);
+    state.known[axis] = true;
+  }
+}
+
+bool is_first(const Reading& r) {
+  return r.sorted.has(Action::cycle);
+}
+
+/// Whether the series begins. If the initial height was lost (by a hole that is not followed, or by another
+/// work offset), it stays unknown.
+bool begins_series(ModalState& state) {
+  CycleState& cycle = state.cycle;
+  if (!state.known[2]) cycle.initial.reset();
+  if (cycle.begun) return false;
+  cycle.begun = cycle.left_at_retract = true;
+  if (state.known[2]) cycle.initial = state.position_mm.z();
+  return true;
+}
+
+/// After a hole that returns to the initial height of the series, the height is unknown.
+void forget_initial(ModalState& state) {
+  state.cycle.initial.reset();
+  state.cycle.left_at_retract = false;
+}
+
+/// Reads whether Z and R of the cycle are under G90 or G91 in this hole. True if numbers of an earlier hole
+/// have another meaning here: then their shift does not apply to this hole.
+bool turns_sticky_numbers(Reading& r, bool begins) {
+  CycleState& cycle = r.state.cycle;
+  const bool before = cycle.relative;
+  // Shop controls keep a depth that was programmed under G90 when G91 moves to further holes.
+  if (is_first(r) || r.sorted.has_any("ZR") || !r.dialect.macro_words) cycle.relative = r.state.relative;
+  if (begins || cycle.relative == before) return false;
+  const bool keeps_bottom = cycle.bottom && r.sorted.word('Z') == nullptr;
+  const bool keeps_retract = cycle.retract && r.sorted.word('R') == nullptr;
+  return keeps_bottom || keeps_retract;
+}
+
+/// A hole that is not changed.
+void fix_hole(Reading& r, Move& move, bool turned) {
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const bool depth = axis == 2 && (!r.state.relative || turned);
+    if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
+  }
+  move.cycle.reset();
+  forget_initial(r.state);
+}
+
+std::string_view why_hole_stays(bool turned) {
+  return turned ? "Z and R of an earlier hole are differences under G91 and coordinates under G90"
+                : "the cycle's words are not all plain numbers in G17";
+}
+
+}  // namespace
+
+void read_cycle(const Block& block, Reading& r) {
+  ModalState& state = r.state;
+  const std::string_view why = why_not_followed(r);
+  const bool begins = begins_series(state);
+  const bool turned = turns_sticky_numbers(r, begins);
+  keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
+  keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
+
+  Move& move = start_move(block, r, Motion::rapid);
+  CycleMove hole;
+  hole.repeats = repeats_of(r);
+  hole.first = is_first(r);
+  hole.begins_series = begins;
+  hole.initial_mm = state.cycle.initial.value_or(0);
+  hole.returns_to_retract = state.returns_to_retract;
+  hole.bottom_word = axis_word(r.sorted.word('Z'));
+  hole.retract_word = axis_word(r.sorted.word('R'));
+  set_levels(state, hole);
+  if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
+  const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom && !turned;
+  if (hole.repeats > 0) set_height_after_hole(state, hole);
+  if (hole.bottom_word || r.sorted.word('Z') != nullptr)
+    state.cycle.bottom_unknown = !followed || !empty(block.block_delete);
+  hole.may_insert_bottom =
+      followed && !state.relative && !state.cycle.relative && !state.cycle.bottom_unknown;
+  move.cycle = hole;
+  const bool own = !state.relative && state.known[0] && state.known[1] && hole.repeats > 0;
+  if (!own) move.handling = Handling::held;
+  if (!followed) {
+    fix_hole(r, move, turned);
+    note_uncorrected(block, r, why.empty() ? why_hole_stays(turned) : why);
+  }
+  finish_move(r, move);
+  if (move.block_delete) forget_initial(state);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,211 @@
+#include "program/robot/apt/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Statements that do not move the tool.
+constexpr auto apt_motionless = std::to_array<std::string_view>({"PARTNO",
+                                                                 "PPRINT",
+                                                                 "INSERT",
+                                                                 "REMARK",
+                                                                 "TITLES",
+                                                                 "MACHIN",
+                                                                 "CUTTER",
+                                                                 "SELECT",
+                                                                 "COOLNT",
+                                                                 "PAINT",
+                                                                 "TLDATA",
+                                                                 "MULTAX",
+                                                                 "INTOL",
+                                                                 "OUTTOL",
+                                                                 "TOLER",
+                                                                 "THICK",
+                                                                 "CLPRNT",
+                                                                 "NOPOST",
+                                                                 "STOP",
+                                                                 "OPSTOP",
+                                                                 "DELAY",
+                                                                 "DWELL",
+                                                                 "TRNTYP",
+                                                                 "SEQNO",
+                                                                 "PREFUN",
+                                                                 "AUXFUN",
+                                                                 "OPSKIP",
+                                                                 "DISPLAY",
+                                                                 "CLEARP",
+                                                                 "TMARK",
+                                                                 "TOOLNO",
+                                                                 "TPRINT",
+                                                                 "HEAD",
+                                                                 "ARCSLP",
+                                                                 "CLAMP",
+                                                                 "LINTOL",
+                                                                 "VERIFY",
+                                                                 "PARTN0",
+                                                                 "TOOLPATH",
+                                                                 "END-OF-PATH",
+                                                                 "LETTER",
+                                                                 "ENDPTH",
+                                                                 "CSI_SET_FLUTE_LENGTH",
+                                                                 "CSI_SET_EXTENSION_LENGTH",
+                                                                 "INDIRV",
+                                                                 "INDIRP",
+                                                                 "TLAXIS",
+                                                                 "PROBE_DATA"});
+/// Statements after which the points are other places.
+constexpr auto apt_transforming = std::to_array<std::string_view>(
+    {"TRACUT", "COPY", "TRANS", "ROTATE", "MIRROR", "INDEX", "ROTABL", "ROTHED", "REFSYS"});
+constexpr auto apt_flow =
+    std::to_array<std::string_view>({"MACRO", "CALL", "LOOPST", "LOOPND", "JUMPTO", "IF", "DO", "TERMAC"});
+
+std::optional<double> plain(const AptReading& r, Span parameter) {
+  const auto number = apt_number(r.robot.program.text, parameter);
+  return number ? std::optional(number->value) : std::nullopt;
+}
+
+/// The first number among the parameters; empty without one.
+std::optional<double> first_number(const AptReading& r, const AptStatement& statement) {
+  for (const Span parameter : statement.parameters)
+    if (const auto number = plain(r, parameter)) return number;
+  return std::nullopt;
+}
+
+bool has_word(const AptReading& r, const AptStatement& statement, std::span<const std::string_view> words) {
+  return std::ranges::any_of(statement.parameters, [&](Span parameter) {
+    return is_among(apt_word(part(r.robot.program.text, parameter)), words);
+  });
+}
+
+void read_unit(AptReading& r, const RobotLine& line, const AptStatement& statement) {
+  constexpr auto millimetres = std::to_array<std::string_view>({"MM", "MILLIMETER", "MILLIMETERS"});
+  constexpr auto inches = std::to_array<std::string_view>({"IN", "INCH", "INCHES"});
+  const bool metric = has_word(r, statement, millimetres);
+  if (!metric && !has_word(r, statement, inches))
+    refuse(r.robot.program.file, line, line.code.begin,
+           fmt::format("{}/ has an unknown unit; use MM or INCHES", statement.head));
+  const LengthUnit unit = metric ? LengthUnit::millimetres : LengthUnit::inches;
+  if (r.unit && *r.unit != unit) forget_position(r.robot);
+  r.unit = unit;
+}
+
+void set_feed(AptReading& r) {
+  RobotState& state = r.robot.state;
+  if (r.feed_per_turn_mm) state.feed_mm_min = *r.feed_per_turn_mm * state.spindle_rpm;
+}
+
+/// FEDRAT/250, FEDRAT/250,MMPM, FEDRAT/IPM,10, FEDRAT/0.1,MMPR: without a unit it is per minute.
+void read_feed(AptReading& r, const AptStatement& statement) {
+  constexpr auto per_turn = std::to_array<std::string_view>({"MMPR", "IPR", "PERREV"});
+  constexpr auto metric = std::to_array<std::string_view>({"MMPM", "MMPR"});
+  constexpr auto inch_units = std::to_array<std::string_view>({"IPM", "IPR"});
+  const double program_mm = mm_per(r.unit.value_or(LengthUnit::millimetres));
+  const double unit_mm = has_word(r, statement, metric)       ? 1
+                         : has_word(r, statement, inch_units) ? mm_per(LengthUnit::inches)
+                                                              : program_mm;
+  const auto number = first_number(r, statement);
+  const bool is_known = number && *number > 0;
+  r.feed_per_turn_mm.reset();
+  r.robot.state.feed_mm_min = is_known ? *number * unit_mm : 0;
+  if (is_known && has_word(r, statement, per_turn)) r.feed_per_turn_mm = *number * unit_mm;
+  set_feed(r);
+}
+
+void read_spindle(AptReading& r, const AptStatement& statement) {
+  constexpr auto of_surface = std::to_array<std::string_view>({"SFM", "SMM", "OFF", "ORIENT", "LOCK"});
+  if (has_word(r, statement, of_surface))
+    r.robot.state.spindle_rpm = 0;
+  else if (const auto number = first_number(r, statement))
+    r.robot.state.spindle_rpm = *number;
+  set_feed(r);
+}
+
+void select_tool(AptReading& r, const AptStatement& statement) {
+  const double number = first_number(r, statement).value_or(0);
+  const bool is_number = number >= 0 && number == static_cast<std::int32_t>(std::min(number, 1e9));
+  enter_robot_tool(r.robot, is_number ? static_cast<std::int32_t>(number) : 0);
+}
+
+/// CSYS/ and MSYS/ state the coordinate system of the points after them: rows of a matrix with its origin, or
+/// the origin and two axes. Each other text is another system.
+void select_system(AptReading& r, const RobotLine& line, const AptStatement& statement) {
+  constexpr auto same = std::to_array<double>({1, 0, 0, 0, 0, 1, 0, 0, 0, 0, 1, 0});
+  constexpr auto same_axes = std::to_array<double>({0, 0, 0, 1, 0, 0, 0, 1, 0});
+  std::vector<double> numbers;
+  for (const Span parameter : statement.parameters) numbers.push_back(plain(r, parameter).value_or(2));
+  const bool is_same = std::ranges::equal(numbers, same) || std::ranges::equal(numbers, same_axes);
+  ProgramFrame frame;
+  if (!is_same) frame.work_offset = apt_word(part(r.robot.program.text, line.code));
+  enter_robot_frame(r.robot, frame);
+}
+
+void switch_off_or_on(AptReading& r, const AptStatement& statement, std::string_view why) {
+  const std::string first =
+      statement.parameters.empty() ? "" : apt_word(part(r.robot.program.text, statement.parameters[0]));
+  if (first == "OFF")
+    r.why_not_followed.clear();
+  else
+    r.why_not_followed = why;
+}
+
+bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& statement) {
+  const std::string_view head = statement.head;
+  if (head == "UNITS" || head == "UNIT")
+    read_unit(r, line, statement);
+  else if (head == "FEDRAT")
+    read_feed(r, statement);
+  else if (head == "RAPID")
+    r.rapid = true;
+  else if (head == "SPINDL")
+    read_spindle(r, statement);
+  else if (head == "LOADTL" || head == "LOAD" || head == "TLCHG" || head == "TURRET")
+    select_tool(r, statement);
+  else if (head == "CSYS" || head == "MSYS" || head == "ORIGIN")
+    select_system(r, line, statement);
+  else if (head == "CUTCOM")
+    switch_off_or_on(r, statement, "the control shifts the points by the tool's radius (CUTCOM/)");
+  else if (head == "CYCLE")
+    switch_off_or_on(r, statement, "the points are holes of CYCLE/, which is not supported");
+  else
+    return false;
+  return true;
+}
+
+}  // namespace
+
+void read_apt_statement(AptReading& r, const RobotLine& line) {
+  const AptStatement statement = apt_statement(r.robot.program.text, line.code);
+  const std::string_view head = statement.head;
+  if (head == "GOTO") return read_apt_point(r, line, statement);
+  if (head == "FROM") return add_joint_move(r.robot, line, "FROM/ states where the tool is");
+  if (head == "CIRCLE") return read_apt_circle(r, statement);
+  if (head == "FINI") {
+    r.robot.ended = true;
+    return;
+  }
+  if (reads_state(r, line, statement) || is_among(head, apt_motionless)) return;
+  // Texts need no '/': "PARTNO BRACKET".
+  for (const std::string_view text : {"PARTNO", "PPRINT", "INSERT", "REMARK"})
+    if (head.starts_with(text)) return;
+  if (head == "GOHOME" || head == "HOME" || head == "RETRCT")
+    return add_joint_move(r.robot, line, fmt::format("{} moves to a position of the machine", head));
+  if (is_among(head, apt_transforming))
+    refuse(
+        r.robot.program.file, line, line.code.begin,
+        fmt::format("{}/ changes the places of the points after it, which is not supported; post the points "
+                    "as they are to be reached",
+                    head));
+  if (is_among(head, apt_flow))
+    refuse(r.robot.program.file, line, line.code.begin,
+           fmt::format("{}/ is not supported; write the statements in the order in which they run", head));
+  add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported: it may move the tool", head));
+}
+
+}  // namespace counterflex

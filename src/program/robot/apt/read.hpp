@@ -1,0 +1,37 @@
+#pragma once
+/// Reads the statements of APT.
+#include "program/robot/apt/lex.hpp"
+#include "program/robot/reading.hpp"
+
+namespace counterflex {
+
+/// A circle on which the next points lie.
+struct AptCircle {
+  Vector3 centre_mm;
+  Vector3 normal;
+  bool is_known = false;  ///< its numbers are plain
+};
+
+struct AptReading {
+  RobotReading& robot;
+  std::optional<LengthUnit> unit{};   ///< of UNITS/ or of the options
+  bool rapid = false;                 ///< RAPID: the next point is reached in rapid
+  std::optional<AptCircle> circle{};  ///< CIRCLE/, until a point that is not on it
+  bool begins_circle = false;         ///< no point behind CIRCLE/ yet
+  std::string why_not_followed{};     ///< why points are not followed; empty if they are
+  std::optional<double> feed_per_turn_mm{};
+};
+
+/// Reads the statement of `line`. Throws `InputError` with line and column.
+void read_apt_statement(AptReading& reading, const RobotLine& line);
+
+/// GOTO/x,y,z and GOTO/x,y,z,i,j,k
+void read_apt_point(AptReading& reading, const RobotLine& line, const AptStatement& statement);
+
+/// CIRCLE/x,y,z,i,j,k,radius
+void read_apt_circle(AptReading& reading, const AptStatement& statement);
+
+/// The plain number that `parameter` is; empty for another.
+std::optional<RobotNumber> apt_number(std::string_view text, Span parameter);
+
+}  // namespace counterflex

@@ -1,0 +1,193 @@
+#include "program/robot/kuka/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+#include <span>
+
+#include "program/program_files.hpp"
+#include "program/robot/kuka/names.hpp"
+#include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+using Words = std::span<const std::string_view>;
+
+bool is_one_of(std::string_view word, Words words) {
+  return std::find(words.begin(), words.end(), word) != words.end();
+}
+
+constexpr auto motions =
+    std::to_array<std::string_view>({"LIN", "PTP", "CIRC", "LIN_REL", "PTP_REL", "CIRC_REL"});
+constexpr auto splines = std::to_array<std::string_view>(
+    {"SPLINE", "PTP_SPLINE", "SLIN", "SCIRC", "SPTP", "SLIN_REL", "SCIRC_REL", "SPTP_REL", "SPL"});
+constexpr auto body_begins =
+    std::to_array<std::string_view>({"IF", "FOR", "WHILE", "LOOP", "REPEAT", "SWITCH"});
+constexpr auto body_ends =
+    std::to_array<std::string_view>({"ENDIF", "ENDFOR", "ENDWHILE", "ENDLOOP", "UNTIL", "ENDSWITCH"});
+/// Declarations and statements that do not move the robot.
+constexpr auto motionless = std::to_array<std::string_view>(
+    {"ELSE",   "ELSEIF", "CASE",     "DEFAULT", "WAIT",   "HALT",   "INTERRUPT", "TRIGGER",
+     "RETURN", "EXIT",   "CONTINUE", "BRAKE",   "RESUME", "EXT",    "EXTFCT",    "IMPORT",
+     "SIGNAL", "STRUC",  "ENUM",     "ANIN",    "ANOUT",  "GLOBAL", "CONST"});
+/// Functions of the control that do not move the robot.
+constexpr auto motionless_calls =
+    std::to_array<std::string_view>({"PULSE", "CWRITE", "CREAD", "SREAD", "SWRITE", "COPEN", "CCLOSE",
+                                     "CIOCTL", "CAST_TO", "CAST_FROM", "VARSTATE", "MSG"});
+
+constexpr auto coordinates = std::to_array<std::string_view>({"X", "Y", "Z", "A", "B", "C"});
+
+/// "P[3].X" without its last member; empty if that is not a coordinate.
+std::string_view target_of_coordinate(std::string_view variable) {
+  const std::size_t point = variable.rfind('.');
+  if (point == std::string_view::npos) return {};
+  const std::string_view member = variable.substr(point + 1);
+  return is_one_of(member, coordinates) ? variable.substr(0, point) : std::string_view();
+}
+
+/// A variable of the program: a target or a frame with plain numbers, or a value computed at run time.
+void assign_variable(KrlReading& r, const RobotLine& line, const std::string& variable, Span value) {
+  if (const std::string_view target = target_of_coordinate(variable); !target.empty()) {
+    r.named.insert_or_assign(std::string(target), KrlNamed{{}, line.line});
+    return;
+  }
+  const auto aggregate = aggregate_at(r.robot.program.text, value.begin, value.end);
+  const bool is_target = aggregate && aggregate->span.end == value.end && krl_target(*aggregate);
+  const bool known = r.named.contains(variable);
+  if (is_target && !in_body(r))
+    r.named.insert_or_assign(variable, KrlNamed{aggregate->span, {}});
+  else if (is_target || known)
+    r.named.insert_or_assign(variable, KrlNamed{{}, line.line});
+}
+
+void assign_speed(KrlReading& r, Span value) {
+  const auto speed = number_at(r.robot.program.text, value.begin);
+  set_krl_speed(r, speed && speed->span.end == value.end ? speed->value : 0);
+}
+
+/// $VEL = {CP 2,ORI1 200,ORI2 200}
+void assign_speeds(KrlReading& r, Span value) {
+  const auto aggregate = aggregate_at(r.robot.program.text, value.begin, value.end);
+  const KrlComponent* speed = aggregate ? find_component(*aggregate, "CP") : nullptr;
+  if (speed != nullptr || !aggregate) set_krl_speed(r, speed && speed->number ? speed->number->value : 0);
+}
+
+/// $ORI_TYPE: only #VAR turns the tool from the orientation of one target to that of the next.
+void assign_orientation_type(KrlReading& r, std::string_view type) {
+  r.why_not_followed =
+      type == "#VAR" && !in_body(r) ? "" : fmt::format("the control turns the tool by $ORI_TYPE={}", type);
+}
+
+void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& assignment) {
+  const std::string_view text = r.robot.program.text;
+  const std::string variable = krl_word(part(text, assignment.variable));
+  const std::string value = krl_word(part(text, assignment.value));
+  if (variable == "$BASE") return assign_krl_base(r, line, assignment.value);
+  if (variable == "$TOOL") return assign_krl_tool(r, line, assignment.value);
+  if (variable == "$VEL.CP") return assign_speed(r, assignment.value);
+  if (variable == "$VEL") return assign_speeds(r, assignment.value);
+  if (variable == "$CIRC_TYPE") {
+    r.turns_with_path = value != "#BASE" || in_body(r);
+    return;
+  }
+  if (variable == "$ORI_TYPE") return assign_orientation_type(r, value);
+  if (variable == "FDAT_ACT") {
+    r.frame_data = part(text, assignment.value);
+    return;
+  }
+  if (variable == "$IPO_MODE" && value == "#TCP")
+    refuse(r.robot.program.file, line, assignment.variable.begin,
+           "$IPO_MODE=#TCP moves the workpiece to a fixed tool, which is not supported; use $IPO_MODE=#BASE");
+  if (variable.starts_with("$BASE.") || variable.starts_with("$TOOL."))
+    refuse(r.robot.program.file, line, assignment.variable.begin,
+           fmt::format("'{}' changes one number of a frame, which is not supported; assign all numbers: "
+                       "{} = {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
+                       variable, variable.substr(0, 5)));
+  assign_variable(r, line, variable, assignment.value);
+}
+
+/// The end of the first routine of the file. Its data lists may follow.
+void end_routine(KrlReading& r) {
+  r.routine_ended = true;
+  r.robot.ended = !r.data_lists;
+}
+
+void begin_or_end(KrlReading& r) {
+  if (r.begun) return end_routine(r);
+  r.begun = true;
+  if (r.data_lists) read_names_of_lists(r);
+}
+
+/// A call may run any statement.
+void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
+  if (is_one_of(krl_word(name), motionless_calls)) return;
+  if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
+  forget_position(r.robot);
+  r.robot.state.external = {};
+  r.robot.state.moved_by_machine = true;
+  note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+}
+
+void read_other(KrlReading& r, const RobotLine& line, Span head) {
+  const std::string_view text = r.robot.program.text;
+  if (const auto assignment = assignment_at(text, line.code.begin, line.code.end))
+    return read_assignment(r, line, *assignment);
+  const std::size_t next = behind_blanks(text, head.end, line.code.end);
+  const char c = next < line.code.end ? text[next] : '\0';
+  if (head.begin == head.end)
+    refuse(r.robot.program.file, line, line.code.begin, "the statement is not KRL: it begins with no name");
+  if (c == '(') return read_call(r, line, part(text, head));
+  if (c == ':' && next + 1 == line.code.end) return;  // a label
+  add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", part(text, head)));
+}
+
+}  // namespace
+
+void set_krl_speed(KrlReading& r, double metres_per_second) {
+  constexpr double mm_min = 60'000;  // in 1 m/s
+  r.robot.state.feed_mm_min = in_body(r) ? 0 : metres_per_second * mm_min;
+}
+
+void read_krl_statement(KrlReading& r, const RobotLine& line) {
+  const std::string_view text = r.robot.program.text;
+  const std::string& file = r.robot.program.file;
+  if (text[line.code.begin] == '&') {  // attributes of the file
+    if (!part(text, line.code).starts_with(file_mark)) return;
+    r.in_data_list = true;
+    r.robot.program.counts.push_back({line.code.begin + file_mark.size(), line.code.end});
+    return;
+  }
+  if (r.in_data_list) return read_data_line(r, line);
+  if (r.routine_ended || line.code.begin < r.behind_loop) return;
+  const Span name = name_at(text, line.code.begin, line.code.end);
+  const std::string head = krl_word(part(text, name));
+  if (is_one_of(head, motions)) return read_krl_motion(r, line, head, name.end);
+  if (is_one_of(head, splines))
+    refuse(file, line, name.begin,
+           fmt::format("{} is a spline motion, which is not supported; post the job with LIN, CIRC and PTP",
+                       head));
+  if (head == "DEFDAT")
+    refuse(file, line, name.begin,
+           "this is a data list, which has no moves; give the .src file of the program");
+  if (head == "GOTO")
+    refuse(file, line, name.begin,
+           "GOTO is not supported; write the statements in the order in which they run");
+  if (begins_routine(text, line)) return begin_or_end(r);
+  if (head == "END" || head == "ENDFCT" || head == "ENDDEF") return end_routine(r);
+  if (head == "FOR" && read_data_loop(r, line)) return;
+  if (head == "BAS") return read_krl_bas(r, line, name.end);
+  if (is_one_of(head, body_begins)) ++r.robot.open_bodies;
+  if (is_one_of(head, body_ends)) r.robot.open_bodies = std::max(r.robot.open_bodies - 1, 0);
+  if (is_one_of(head, body_begins) || is_one_of(head, body_ends)) return;
+  if (begins_declaration(head)) {
+    const auto assignment = assignment_in(text, line.code);
+    return assignment ? read_assignment(r, line, *assignment) : void();
+  }
+  if (is_one_of(head, motionless)) return;
+  read_other(r, line, name);
+}
+
+}  // namespace counterflex

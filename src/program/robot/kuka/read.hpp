@@ -1,0 +1,77 @@
+#pragma once
+/// Reads the statements of KUKA KRL.
+#include <map>
+#include <string>
+#include <vector>
+
+#include "program/robot/kuka/lex.hpp"
+#include "program/robot/kuka/loops.hpp"
+#include "program/robot/reading.hpp"
+
+namespace counterflex {
+
+/// A target or frame that the text gives a name.
+struct KrlNamed {
+  Span value{};                      ///< its aggregate
+  std::optional<int> computed_in{};  ///< line that computes it at run time
+  int line = 0;                      ///< of a data list
+};
+
+struct KrlReading {
+  RobotReading& robot;
+  bool begun = false;                                    ///< DEF was read
+  std::map<std::string, KrlNamed, std::less<>> named{};  ///< by name in upper case
+  std::string tool{};                                    ///< right side of the last $TOOL
+  std::string frame_data{};                              ///< right side of the last FDAT_ACT
+  bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
+  std::string why_not_followed{};  ///< why linear moves are not followed; empty if they are
+  const bool data_lists = false;   ///< they follow the program
+  const KrlArrays& arrays;         ///< of the data lists
+  std::vector<KrlLoop> loops{};    ///< over elements of these arrays
+  std::size_t behind_loop = 0;     ///< the statements before this byte are those of a loop
+  bool routine_ended = false;
+  bool in_data_list = false;
+};
+
+/// Reads the statement of `line`. Throws `InputError` with line and column.
+void read_krl_statement(KrlReading& reading, const RobotLine& line);
+
+/// Whether a motion statement with these words does not stop at its end: C_DIS, C_VEL, C_ORI.
+bool passes_target(std::string_view words);
+
+/// LIN, PTP, CIRC and their relative forms. `head`: the keyword in upper case. `at`: the byte behind it.
+void read_krl_motion(KrlReading& reading, const RobotLine& line, std::string_view head, std::size_t at);
+
+/// The aggregate of a target or a frame that the text names, also "P[3]" and "S[3].TARGET". Empty if it is
+/// not in the text, or computed at run time.
+std::optional<KrlAggregate> named_aggregate(const KrlReading& reading, std::string_view name);
+
+/// Reads the names that the data lists give, before the statements that use them.
+void read_names_of_lists(KrlReading& reading);
+
+/// Reads FOR as a loop over the targets of a data list: one move for each. False for another loop. Throws
+/// `InputError` if the elements of the array are not in a data list, in their order.
+bool read_data_loop(KrlReading& reading, const RobotLine& line);
+
+/// Reads a line of a data list: sizes and indices of the arrays of loops count targets.
+void read_data_line(KrlReading& reading, const RobotLine& line);
+
+/// $BASE = ..., $TOOL = ...
+void assign_krl_base(KrlReading& reading, const RobotLine& line, Span value);
+void assign_krl_tool(KrlReading& reading, const RobotLine& line, Span value);
+
+/// BAS(#BASE, 3) and other calls of the package that selects frames and speeds. `at`: the byte behind BAS.
+void read_krl_bas(KrlReading& reading, const RobotLine& line, std::size_t at);
+
+/// The target of an aggregate: A B C are angles about Z, Y, X. Empty if a component is not a plain number.
+std::optional<RobotTarget> krl_target(const KrlAggregate& aggregate);
+
+/// The speed of linear moves from here on; 0 if it is not known.
+void set_krl_speed(KrlReading& reading, double metres_per_second);
+
+/// Whether the statement is in a loop or a condition.
+inline bool in_body(const KrlReading& reading) {
+  return reading.robot.open_bodies > 0;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,81 @@
+#pragma once
+/// Data that an ABB RAPID module declares: targets, tools, work objects, speeds, zones.
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "program/robot/rapid/statement.hpp"
+
+namespace counterflex {
+
+struct RapidDatum {
+  std::string type;   ///< in upper case; empty for a parameter of a routine
+  std::string name;   ///< as it is declared
+  std::string value;  ///< text behind ":="; empty for a target
+  Span span;          ///< of that text
+  bool constant = false;
+  bool array = false;
+  int computed_in = 0;   ///< line of a statement that may change it at run time; 0: not computed
+  std::size_t uses = 0;  ///< number of tokens with its name, without its declaration
+};
+
+class RapidModule {
+ public:
+  /// Adds the declaration, the parameters or the routine that `statement` begins.
+  void declare(std::string_view text, const RapidStatement& statement);
+
+  /// Adds all declarations and uses of a whole module.
+  void scan(std::string_view text);
+
+  /// The datum with that name (any case) for a statement at byte `at`: of its routine, else of the module.
+  const RapidDatum* find(std::string_view name, std::size_t at) const;
+
+  /// Whether the module has an instruction with that name in upper case.
+  bool calls(std::string_view name) const { return calls_.contains(name); }
+
+  /// Whether the module has a routine with that name in upper case.
+  bool has_routine(std::string_view name) const { return names_of_routines_.contains(name); }
+
+ private:
+  void add_uses(std::string_view text, const RapidStatement& statement, int line);
+  void add_changes(std::string_view text, const RapidStatement& statement, int line);
+  void add_parameters(std::string_view text, const RapidStatement& statement);
+  std::size_t routine_at(std::size_t at) const;
+  std::string key_of(std::string_view name, std::size_t at) const;
+
+  std::map<std::string, RapidDatum, std::less<>> data_;  ///< by name in upper case and number of the routine
+  std::set<std::string, std::less<>> calls_;
+  std::set<std::string, std::less<>> names_of_routines_;
+  struct Section {
+    std::size_t begin, routine;  ///< number of the routine from 1, 0: outside of routines
+  };
+  std::vector<Section> sections_;
+  std::size_t routine_count_ = 0;
+};
+
+/// Whether the statements of a module may depend on lines far away from them, so that it is read as a whole.
+/// Lines are added in portions.
+class RapidScan {
+ public:
+  void add(std::string_view lines);
+  bool depends_on_far_lines() const { return far_; }
+
+ private:
+  bool far_ = false;
+  bool in_routines_ = false;
+};
+
+/// The same for a whole text.
+bool rapid_depends_on_far_lines(std::string_view text);
+
+/// Instructions of the control that do not move the robot, by name in upper case.
+bool is_motionless_instruction(std::string_view name);
+
+/// Motions of the tool to a target, and of the joints.
+bool is_linear_instruction(std::string_view name);
+bool is_joint_instruction(std::string_view name);
+
+}  // namespace counterflex

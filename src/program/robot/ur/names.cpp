@@ -1,0 +1,98 @@
+#include "program/robot/ur/names.hpp"
+
+#include <algorithm>
+#include <array>
+
+#include "program/text/lex.hpp"
+
+namespace counterflex {
+namespace {
+
+bool is_function(std::string_view head) {
+  return head == "def" || head == "thread" || head == "sec";
+}
+
+/// Counts the names in `code` from `at` on, but not in strings.
+void count_names(std::string_view text, Span code, UrNames& names) {
+  bool quoted = false;
+  for (std::size_t at = code.begin; at < code.end;) {
+    if (text[at] == '"') quoted = !quoted;
+    const Span name = ur_name_at(text, at, code.end);
+    at = empty(name) ? at + 1 : name.end;
+    if (empty(name) || quoted) continue;
+    const auto found = names.variables.find(part(text, name));
+    if (found == names.variables.end())
+      names.variables[std::string(part(text, name))].read = 1;
+    else
+      ++found->second.read;
+  }
+}
+
+void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
+  constexpr std::size_t not_once = 2;
+  UrVariable& variable = names.variables[std::string(part(text, assignment.variable))];
+  variable.assigned += assignment.of_member ? not_once : 1;
+  variable.in_body = variable.in_body || in_body;
+  variable.value = assignment.value;
+}
+
+}  // namespace
+
+bool ur_opens_body(std::string_view head) {
+  return is_function(head) || head == "if" || head == "while" || head == "for" || head == "switch";
+}
+
+std::optional<UrAssignment> ur_assignment(std::string_view text, Span code) {
+  Span name = ur_name_at(text, code.begin, code.end);
+  if (part(text, name) == "global" || part(text, name) == "local")
+    name = ur_name_at(text, behind_blanks(text, name.end, code.end), code.end);
+  if (empty(name)) return std::nullopt;
+  std::size_t at = behind_blanks(text, name.end, code.end);
+  const std::size_t member = at;
+  while (at < code.end && (text[at] == '[' || text[at] == '.')) {
+    const std::size_t close = text[at] == '[' ? text.find(']', at) : ur_name_at(text, at + 1, code.end).end;
+    if (close >= code.end) return std::nullopt;
+    at = behind_blanks(text, text[at] == '[' ? close + 1 : close, code.end);
+  }
+  const bool is_assignment = at < code.end && text[at] == '=' && (at + 1 >= code.end || text[at + 1] != '=');
+  if (!is_assignment) return std::nullopt;
+  return UrAssignment{name, {behind_blanks(text, at + 1, code.end), code.end}, at != member};
+}
+
+UrNames ur_names(std::string_view text) {
+  UrNames names;
+  int depth = 0, depth_of_program = 0;
+  RobotLine line;
+  while (next_robot_line(text, ur_comment, line)) {
+    if (empty(line.code) || text[line.code.begin] == '$') continue;
+    const Span head = ur_name_at(text, line.code.begin, line.code.end);
+    const std::string_view word = part(text, head);
+    if (is_function(word)) {
+      const Span name = ur_name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
+      names.functions.emplace(part(text, name));
+      if (word == "def" && depth == 0) depth_of_program = 1;
+    }
+    if (ur_opens_body(word)) ++depth;
+    if (word == "end") depth = std::max(depth - 1, 0);
+    const auto assignment = ur_assignment(text, line.code);
+    if (assignment) add_assignment(text, *assignment, depth > depth_of_program, names);
+    count_names(text, assignment ? assignment->value : line.code, names);
+  }
+  return names;
+}
+
+Span ur_resolved(std::string_view text, const UrNames& names, Span value) {
+  if (empty(value) || ur_name_at(text, value.begin, value.end).end != value.end) return value;
+  const auto found = names.variables.find(part(text, value));
+  if (found == names.variables.end()) return value;
+  const UrVariable& variable = found->second;
+  const bool is_constant = variable.assigned == 1 && !variable.in_body && variable.value.begin < value.begin;
+  return is_constant ? variable.value : value;
+}
+
+std::optional<double> ur_constant(std::string_view text, const UrNames& names, Span value) {
+  const auto number = ur_number(text, ur_resolved(text, names, value));
+  return number ? std::optional(number->value) : std::nullopt;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,50 @@
+#pragma once
+/// Variables of a URScript program, and where their values are.
+#include <functional>
+#include <map>
+#include <optional>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "program/robot/ur/lex.hpp"
+
+namespace counterflex {
+
+/// What the statements of a program do with a variable.
+struct UrVariable {
+  std::size_t assigned = 0;  ///< number of assignments
+  std::size_t read = 0;      ///< how often statements have it otherwise
+  bool in_body = false;      ///< a function, a thread, a loop or a condition assigns it
+  Span value{};              ///< right side of its last assignment
+};
+
+struct UrNames {
+  std::map<std::string, UrVariable, std::less<>> variables;
+  std::set<std::string, std::less<>> functions;  ///< functions and threads that the text defines
+};
+
+/// An assignment: "P1 = p[...]", "global P1 = p[...]", "q[0] = 1".
+struct UrAssignment {
+  Span variable;
+  Span value;
+  bool of_member = false;  ///< only an element changes
+};
+
+/// The names in the whole `text`.
+UrNames ur_names(std::string_view text);
+
+/// The assignment that the statement `code` is; empty if it is another one.
+std::optional<UrAssignment> ur_assignment(std::string_view text, Span code);
+
+/// `value`, or its constant: if it is a variable that only one statement before it assigns, outside of
+/// loops and conditions, the right side of that statement.
+Span ur_resolved(std::string_view text, const UrNames& names, Span value);
+
+/// The number of `value` or of its constant; empty if it is computed.
+std::optional<double> ur_constant(std::string_view text, const UrNames& names, Span value);
+
+/// Whether a statement that begins with `head` opens a body that `end` closes.
+bool ur_opens_body(std::string_view head);
+
+}  // namespace counterflex

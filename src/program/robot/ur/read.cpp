@@ -1,0 +1,195 @@
+#include "program/robot/ur/read.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <array>
+
+#include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr auto ur_motions = std::to_array<std::string_view>({"movej", "movel", "movep", "movec"});
+/// Functions that move the robot in a way that is not followed.
+constexpr auto ur_other_motions =
+    std::to_array<std::string_view>({"servoj", "servoc", "servol", "speedj", "speedl", "freedrive_mode",
+                                     "teach_mode", "screw_driving", "move_until_contact"});
+/// Functions after which the tool does not go to the programmed targets.
+constexpr auto ur_shifting = std::to_array<std::string_view>(
+    {"force_mode", "track_conveyor_linear", "track_conveyor_circular", "path_offset_enable"});
+/// Functions of the control that do not move the robot.
+constexpr auto ur_motionless_calls = std::to_array<std::string_view>({"sleep",
+                                                                      "sync",
+                                                                      "textmsg",
+                                                                      "popup",
+                                                                      "stopj",
+                                                                      "stopl",
+                                                                      "set_digital_out",
+                                                                      "set_standard_digital_out",
+                                                                      "set_configurable_digital_out",
+                                                                      "set_tool_digital_out",
+                                                                      "set_analog_out",
+                                                                      "set_standard_analog_out",
+                                                                      "set_tool_voltage",
+                                                                      "set_payload",
+                                                                      "set_payload_mass",
+                                                                      "set_payload_cog",
+                                                                      "set_target_payload",
+                                                                      "set_gravity",
+                                                                      "set_flag",
+                                                                      "set_runstate_outputs",
+                                                                      "set_analog_inputrange",
+                                                                      "set_analog_outputdomain",
+                                                                      "set_tool_communication",
+                                                                      "set_tool_output_mode",
+                                                                      "zero_ftsensor",
+                                                                      "end_force_mode",
+                                                                      "stop_conveyor_tracking",
+                                                                      "path_offset_disable",
+                                                                      "end_freedrive_mode",
+                                                                      "end_teach_mode",
+                                                                      "set_conveyor_tick_count"});
+constexpr auto ur_motionless_prefixes = std::to_array<std::string_view>(
+    {"get_", "is_", "read_", "write_", "socket_", "modbus_", "rtde_", "rpc_", "str_", "to_"});
+/// Words that begin the next part of a body.
+constexpr auto ur_body_parts = std::to_array<std::string_view>({"elif", "else", "case", "default"});
+/// Words that begin other statements that do not move the robot.
+constexpr auto ur_motionless = std::to_array<std::string_view>(
+    {"break", "continue", "enter_critical", "exit_critical", "join", "kill", "pass"});
+
+/// A function may run any statement.
+void run_function(UrReading& r, const RobotLine& line, std::string_view name) {
+  forget_position(r.robot);
+  r.robot.state.moved_by_machine = true;
+  r.tool.clear();
+  note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+}
+
+/// A function of the program in an expression, or in "run thread()".
+void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
+  const std::string_view text = r.robot.program.text;
+  for (std::size_t at = value.begin; at < value.end;) {
+    const Span name = ur_name_at(text, at, value.end);
+    at = empty(name) ? at + 1 : name.end;
+    if (!empty(name) && r.names.functions.contains(part(text, name)))
+      return run_function(r, line, part(text, name));
+  }
+}
+
+// Tools have no numbers: another pose is another tool.
+void select_tool(UrReading& r, const UrCall& call) {
+  const std::string_view text = r.robot.program.text;
+  std::string pose;
+  bool is_constant = false;
+  if (!call.arguments.empty()) {
+    const Span value = ur_resolved(text, r.names, call.arguments.front().value);
+    pose = part(text, value);
+    is_constant = ur_pose(text, value).has_value() && !in_body(r);
+  }
+  if (is_constant && r.tool == pose) return;
+  r.tool = is_constant ? pose : "";
+  enter_robot_tool(r.robot, 0);
+}
+
+void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
+  const std::string_view name = part(r.robot.program.text, call.name);
+  const auto has_prefix = [&](std::string_view prefix) { return name.starts_with(prefix); };
+  if (r.names.functions.contains(name)) return run_function(r, line, name);
+  if (is_among(name, ur_motions)) return read_ur_motion(r, line, call);
+  if (name == "set_tcp") return select_tool(r, call);
+  if (is_among(name, ur_shifting))
+    refuse(r.robot.program.file, line, call.name.begin,
+           fmt::format("{} shifts the tool away from the programmed targets at run time, which is not "
+                       "supported; use a program without it",
+                       name));
+  if (is_among(name, ur_other_motions))
+    return add_unfollowed_move(r.robot, line, fmt::format("{} is not supported", name));
+  if (is_among(name, ur_motionless_calls) || std::ranges::any_of(ur_motionless_prefixes, has_prefix))
+    return run_functions_in(r, line, call.span);
+  run_function(r, line, name);
+}
+
+/// Which of several functions is the program is not known.
+void refuse_second_function(const UrReading& r, const RobotLine& end) {
+  const Program& program = r.robot.program;
+  RobotLine line = end;
+  while (next_robot_line(program.text, ur_comment, line)) {
+    const Span head = ur_name_at(program.text, line.code.begin, line.code.end);
+    if (part(program.text, head) == "def")
+      refuse(program.file, line, head.begin,
+             "this is a second function, and which one is the program is not known; put functions inside of "
+             "the program's 'def', or use a file for each");
+  }
+}
+
+void end_program(UrReading& r, const RobotLine& line) {
+  refuse_second_function(r, line);
+  r.robot.ended = true;
+}
+
+void close_body(UrReading& r, const RobotLine& line) {
+  if (r.robot.open_bodies > 0) {
+    --r.robot.open_bodies;
+    return;
+  }
+  if (!r.begun) refuse(r.robot.program.file, line, line.code.begin, "'end' closes nothing");
+  end_program(r, line);
+}
+
+void require_colon(const UrReading& r, const RobotLine& line, std::string_view head) {
+  if (r.robot.program.text[line.code.end - 1] != ':')
+    refuse(r.robot.program.file, line, line.code.begin,
+           fmt::format("the line of '{}' does not end with ':'; write statements into lines of their own",
+                       head));
+}
+
+/// Whether `head` begins or divides a body, a function among them.
+bool reads_structure(UrReading& r, const RobotLine& line, std::string_view head) {
+  const bool opens = ur_opens_body(head);
+  if (opens || is_among(head, ur_body_parts)) require_colon(r, line, head);
+  if (opens) {
+    if (head == "def" && !r.begun && !in_body(r))
+      r.begun = true;
+    else
+      ++r.robot.open_bodies;
+  }
+  return opens || is_among(head, ur_body_parts);
+}
+
+}  // namespace
+
+void read_ur_statement(UrReading& r, const RobotLine& line) {
+  const std::string_view text = r.robot.program.text;
+  const std::string& file = r.robot.program.file;
+  if (text[line.code.begin] == '$') return;  // a line of the program tree
+  const Span name = ur_name_at(text, line.code.begin, line.code.end);
+  const std::string_view head = part(text, name);
+  if (head.empty())
+    refuse(file, line, line.code.begin, "the statement is not URScript: it begins with no name");
+  if (head == "end") return close_body(r, line);
+  if (reads_structure(r, line, head)) return;
+  if (const auto assignment = ur_assignment(text, line.code))
+    return run_functions_in(r, line, assignment->value);
+  if (head == "return" || head == "halt") {
+    run_functions_in(r, line, line.code);
+    if (!in_body(r)) end_program(r, line);
+    return;
+  }
+  if (is_among(head, ur_motionless) || head == "global" || head == "local") return;
+  const std::size_t next = behind_blanks(text, name.end, line.code.end);
+  if (next >= line.code.end || text[next] != '(')
+    return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", part(text, line.code)));
+  const auto call = ur_call_at(text, line.code.begin, line.code.end);
+  if (!call)
+    refuse(file, line, next,
+           fmt::format("the arguments of {} have no closing parenthesis in this line", head));
+  if (call->span.end != line.code.end)
+    refuse(file, line, call->span.end,
+           fmt::format("unexpected text behind the call of {}; write each statement into a line of its own",
+                       head));
+  read_call(r, line, *call);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,226 @@
+// Programs of FANUC robots: reading.
+#include <doctest/doctest.h>
+
+#include "program/robot/fanuc/fanuc.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+const std::string tp_milling =
+    "  !POCKET ;\n"
+    "  UFRAME_NUM=1 ;\n"
+    "  UTOOL_NUM=2 ;\n"
+    "J P[1] 50% CNT100    ;\n"
+    "L P[2:DOWN] 20mm/sec FINE    ;\n"
+    "L P[3] 240cm/min CNT60 ACC80    ;\n"
+    "//L P[1] 100mm/sec FINE    ;\n"
+    "   ;\n"
+    "L P[4] 10inch/min CNT0    ;\n";
+
+Matrix3 tp_rotation_at_end(const Program& program, std::size_t move) {
+  return rotation_of(OrientationForm::fixed_axes, program.moves[move].orientation->end);
+}
+
+}  // namespace
+
+TEST_CASE("the positions of J and L are read with their orientation, frame, tool and speed") {
+  const Program program = read_tp_statements(tp_milling);
+  CHECK(program.dialect == "fanuc_tp");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.left_alone.empty());
+  const Move &rapid = program.moves[0], &down = program.moves[1], &across = program.moves[2],
+             &last = program.moves[3];
+  CHECK(rapid.motion == Motion::rapid);
+  CHECK(rapid.line == 9);
+  CHECK(!rapid.known_start[0]);
+  CHECK(rapid.end_mm == Vector3(0, 0, 50));
+  CHECK(!rapid.may_split);
+  CHECK(down.motion == Motion::feed);
+  CHECK(down.start_mm == Vector3(0, 0, 50));
+  CHECK(down.end_mm == Vector3(0, 0, 0));
+  CHECK(down.feed_mm_min == doctest::Approx(1200));
+  CHECK(down.exact_stop);
+  CHECK(!down.may_split);
+  CHECK(across.feed_mm_min == doctest::Approx(2400));
+  CHECK(across.may_split);
+  CHECK(across.may_jump);
+  CHECK(across.tool == 2);
+  CHECK(program.frames[across.frame].work_offset == "UF 1");
+  CHECK(!program.frames[across.frame].pose_mm);
+  CHECK(across.orientation->form == OrientationForm::fixed_axes);
+  CHECK(!across.orientation->by_angles);
+  CHECK(across.orientation->start == OrientationNumbers{180, 0, 0});
+  CHECK(across.orientation->end == OrientationNumbers{180, 0, 10});
+  CHECK(program.operations[across.operation] == "POCKET");
+  CHECK(last.feed_mm_min == doctest::Approx(254));
+  CHECK(last.exact_stop);  // CNT0
+  CHECK(last.line == 14);
+}
+
+TEST_CASE("W, P and R turn about the fixed axes X, Y and Z") {
+  const Program program =
+      read_tp_statements("L P[1] 9mm/sec CNT100 ;\nL P[2] 9mm/sec CNT100 ;\n",
+                         tp_position(1, {0, 0, 0, 90, 0, 90}) + tp_position(2, {1, 0, 0, 30, 90, 0}));
+  // Rz(90) Rx(90): X goes to Y, Y to Z, Z to X.
+  const Matrix3 R = tp_rotation_at_end(program, 0);
+  CHECK((R * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitZ() - Vector3::UnitX()).norm() < 1e-12);
+  // Ry(90) Rx(30): X goes to -Z; Z turns by 30 degrees about X first: (0, -1/2, sqrt(3)/2), then Z goes to X.
+  const Matrix3 G = tp_rotation_at_end(program, 1);
+  CHECK((G * Vector3::UnitX() + Vector3::UnitZ()).norm() < 1e-12);
+  CHECK((G * Vector3::UnitZ() - Vector3(std::sqrt(3.0) / 2, -0.5, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("the tool turns the shorter way from 179.999 to -179.999 degrees, and through P = 90") {
+  const Program program = read_tp_statements(
+      "L P[1] 9mm/sec CNT100 ;\nL P[2] 9mm/sec CNT100 ;\nL P[3] 9mm/sec CNT100 ;\nL P[4] 9mm/sec CNT100 ;\n",
+      tp_position(1, {0, 0, 0, 179.999, 0, 0}) + tp_position(2, {1, 0, 0, -179.999, 0, 0}) +
+          tp_position(3, {2, 0, 0, 0, 80, 0}) + tp_position(4, {3, 0, 0, 180, 80, 180}));
+  const auto turned = [&](std::size_t move) {
+    const Turn turn = turn_of(*program.moves[move].orientation);
+    return rotation_between(turn.end, turn.start).norm();
+  };
+  CHECK(turned(1) == doctest::Approx(0.002 * deg));
+  // Rz(180) Ry(80) Rx(180) = Ry(100): 20 degrees behind Ry(80).
+  CHECK(turned(3) == doctest::Approx(20 * deg));
+  const Matrix3 middle =
+      rotation_of(OrientationForm::fixed_axes, numbers_at(*program.moves[3].orientation, 0.5));
+  CHECK((middle * Vector3::UnitX() + Vector3::UnitZ()).norm() < 1e-9);  // Ry(90)
+}
+
+TEST_CASE("C goes through its auxiliary point, also in a continuation line") {
+  const std::string positions = tp_position(1, {0, 0, 0, 0, 0, 0}) + tp_position(2, {10, 10, 0, 0, 0, 0}) +
+                                tp_position(3, {20, 0, 0, 0, 0, 0}) + tp_position(4, {20, 0, 0, 0, 0, 90});
+  for (const char* statement :
+       {"C P[2]    \n:  P[3] 50mm/sec CNT80    ;\n", "C P[2] P[3] 50mm/sec CNT80 ;\n"}) {
+    const Program program = read_tp_statements(
+        std::string("L P[1] 9mm/sec CNT10 ;\n") + statement + "L P[1] 9mm/sec CNT10 ;\n", positions);
+    REQUIRE(program.moves.size() == 3);
+    const Move& arc = program.moves[1];
+    REQUIRE(arc.arc);
+    CHECK((arc.arc->centre_mm - Vector3(10, 0, 0)).norm() < 1e-9);
+    CHECK(arc.end_mm == Vector3(20, 0, 0));
+    CHECK(arc.feed_mm_min == doctest::Approx(3000));
+    CHECK(arc.may_split);
+    CHECK(program.moves[2].line == (std::string(statement).find("\n:") < 20 ? 9 : 8));
+  }
+  const Program turning =
+      read_tp_statements("L P[1] 9mm/sec CNT10 ;\nC P[2] P[4] 50mm/sec CNT80 ;\n", positions);
+  CHECK(!turning.moves[1].arc);  // the tool would turn by 90 degrees, but not at the auxiliary point
+  CHECK(turning.left_alone[0].why ==
+        "the orientation at the auxiliary point of C is not on the turn to its end");
+  CHECK(
+      tp_refusal("C P[2] 50mm/sec FINE ;\n", positions).starts_with("job.ls:6:6: error: C has no end point"));
+}
+
+TEST_CASE("other layouts of a position: no blanks, other decimals, two groups, a comment, joint angles") {
+  const Program program = read_tp_statements(
+      "L P[1:A B] 9mm/sec CNT10 ;\nL P[2]9mm/sec CNT10 ;\nL P[ 3 ] 9mm/sec CNT10 ;\nJ P[4] 10% FINE ;\n",
+      "P[1:\"A B\"]{\r\n   GP1:\r\n UF:1,UT:2,CONFIG:'N U T, 0, 0, 0',X=1mm,Y=-.5mm,Z=+3. "
+      "mm,W=0deg,P=0deg,R=0deg\r\n};\r\n"
+      "P[2] { GP1: UF : F, UT : F, CONFIG: 'NUT000', X =\t4.0\tmm, Y = 5 mm, Z = 6 mm,\n"
+      " W = 0 deg, P = -0.000 deg, R = 0 deg, E1= 12.5 mm\n  GP2:\n UF : 1, UT : 2,\n J1 = 0.0 deg, J2 = 0.0 "
+      "deg\n};\n"
+      "P[3]{GP1: UF : F, UT : 2, CONFIG : 'F U T, 0, 0, 0', X = 7 mm, Y = 8 mm, Z = 9 mm, W = 0 deg, P = 0 "
+      "deg, R = 0 deg};\n"
+      "P[4]{\n   GP1:\n\tUF : 1, UT : 2,\n\tJ1= 0.000 deg, J2= 0.000 deg, J3= 0 deg,\n\tJ4= 0 deg, J5= -90 "
+      "deg, J6= 0 deg,\n\tE1= 3 mm\n};\n");
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[0].end_mm == Vector3(1, -0.5, 3));
+  CHECK(program.moves[1].end_mm == Vector3(4, 5, 6));
+  CHECK(program.moves[2].end_mm == Vector3(7, 8, 9));
+  CHECK(!program.moves[2].may_split);  // another configuration
+  REQUIRE(program.left_alone.size() == 1);
+  CHECK(program.left_alone[0].line == 9);
+  CHECK(program.left_alone[0].why == "the target P[4] is in joint angles");
+  CHECK(program.left_alone[0].machine_position);
+}
+
+TEST_CASE("external axes and a second group that move are noted with the line") {
+  const auto moved = [](const std::string& first, const std::string& second) {
+    const Program program = read_tp_statements(
+        "L P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;\n",
+        tp_position(1, {0, 0, 0, 0, 0, 0}, first) + tp_position(2, {1, 0, 0, 0, 0, 0}, second));
+    return program.external_axes_move ? program.external_axes_move->line : 0;
+  };
+  CHECK(moved(",\n\tE1= 850.0 mm", ",\n\tE1= 850.000 mm") == 0);
+  CHECK(moved(",\n\tE1= 850.0 mm", ",\n\tE1= 851.0 mm") == 7);
+  const std::string still = "\n   GP2:\n\tUF : 1, UT : 1,\n\tJ1= 0.0 deg,\tJ2= 5.0 deg";
+  CHECK(moved(still, still) == 0);
+  CHECK(moved(still, "\n   GP2:\n\tUF : 1, UT : 1,\n\tJ1= 0.0 deg,\tJ2= 6.0 deg") == 7);
+}
+
+TEST_CASE("UF 0 is the world frame, and a frame that the program sets with numbers has their place") {
+  const std::string positions = tp_position(1, {0, 0, 0, 0, 0, 0}, "", "UF : 0, UT : 1") +
+                                tp_position(2, {1, 0, 0, 0, 0, 0}, "", "UF : 9, UT : 1");
+  const Program program = read_tp_statements(
+      "PR[9,1]=100 ;\nPR[9,2]=(-5.5) ;\nPR[9,3]=0 ;\nPR[9,4]=0 ;\nPR[9,5]=0 ;\nPR[9,6]=90 ;\n"
+      "UFRAME[9]=PR[9] ;\nL P[1] 9mm/sec FINE ;\nUFRAME_NUM=9 ;\nL P[2] 9mm/sec FINE ;\n",
+      positions);
+  REQUIRE(program.moves.size() == 2);
+  const ProgramFrame &world = program.frames[program.moves[0].frame],
+                     &own = program.frames[program.moves[1].frame];
+  CHECK(world.work_offset == "UF 0");
+  CHECK(world.pose_mm->p == Vector3(0, 0, 0));
+  CHECK(own.work_offset == "UF 9");
+  REQUIRE(own.pose_mm);
+  CHECK((*own.pose_mm * Vector3(1, 0, 0) - Vector3(100, -4.5, 0)).norm() < 1e-12);
+  CHECK(!program.moves[1].known_start[0]);  // another frame
+  const Program computed = read_tp_statements("UFRAME[9]=PR[3] ;\nL P[2] 9mm/sec FINE ;\n", positions);
+  CHECK(!computed.frames[computed.moves[0].frame].pose_mm);
+  CHECK(computed.left_alone[0].why == "UFRAME is computed at run time: its pose is not known");
+}
+
+TEST_CASE("the positions behind a label, a call and in a loop are not known") {
+  const std::string line = "L P[2] 9mm/sec CNT50 ;\n";
+  for (const char* before :
+       {"LBL[1] ;\n", "CALL GRIP ;\n", "CALL GRIP(1,R[2]) ;\n", "OPEN_HAND ;\n", "IF DI[1]=ON,CALL GRIP ;\n",
+        "SELECT R[1]=1,CALL A ;\n       =2,JMP LBL[1] ;\n"}) {
+    CAPTURE(before);
+    const Program program = read_tp_statements("L P[1] 9mm/sec CNT50 ;\n" + std::string(before) + line);
+    CHECK(!program.moves[1].known_start[0]);
+    CHECK(all_known(program.moves[1].known_end));
+  }
+  for (const char* before : {"WAIT   1.00(sec) ;\n", "DO[1]=ON ;\n", "R[1]=R[1]+1 ;\n", "JMP LBL[1] ;\n",
+                             "IF R[1]=1,JMP LBL[2] ;\n", "Arc Start[1] ;\n", "PAYLOAD[1] ;\n",
+                             "$MNUFRAMENUM[1]=1 ;\n", "--eg:a remark ;\n", ": DO[2]=ON;\n"}) {
+    CAPTURE(before);
+    const Program program = read_tp_statements("L P[1] 9mm/sec CNT50 ;\n" + std::string(before) + line);
+    CHECK(all_known(program.moves[1].known_start));
+  }
+  const Program loop =
+      read_tp_statements("L P[1] 9mm/sec CNT50 ;\nFOR R[1]=1 TO 5 ;\n" + line +
+                         "J P[1] 10% FINE ;\nENDFOR ;\nIF (R[1]=1) THEN ;\nELSE ;\nENDIF ;\n" + line);
+  REQUIRE(loop.moves.size() == 3);
+  CHECK(loop.moves[1].fixed[0]);
+  CHECK(!loop.moves[2].known_start[0]);
+  CHECK(!loop.moves[2].fixed[0]);
+  CHECK(loop.left_alone[0].why == "a loop or a condition may run the statement never or several times");
+}
+
+TEST_CASE("a motion with a word that acts at its end or gives its time is not split") {
+  for (const char* words :
+       {"5.0sec CNT50", "500msec CNT50", "9mm/sec CNT50 TB .50sec,CALL GRIP", "9mm/sec CD20",
+        "9mm/sec CNT50 DB 10mm,DO[1]=ON", "9mm/sec CNT50 Arc End[1]", "R[3]sec CNT50"}) {
+    CAPTURE(words);
+    const Program program =
+        read_tp_statements("L P[1] 9mm/sec CNT50 ;\nL P[2] " + std::string(words) + " ;\n");
+    CHECK(all_known(program.moves[1].known_start));
+    CHECK(!program.moves[1].may_split);
+    CHECK(!program.moves[1].may_jump);
+  }
+  for (const char* words : {"9mm/sec CNT50 ACC 80", "9mm/sec CNT R[2] PTH", "9 mm/sec CNT50 EV50%",
+                            "R[3]mm/sec CNT50", "WELD_SPEED CNT100 PTH", "30deg/sec CNT50"}) {
+    CAPTURE(words);
+    const Program program =
+        read_tp_statements("L P[1] 9mm/sec CNT50 ;\nL P[2] " + std::string(words) + " ;\n");
+    CHECK(program.moves[1].may_split);
+    CHECK(program.left_alone.empty());
+  }
+  const Program unknown = read_tp_statements("L P[1] 9mm/sec CNT50 ;\nL P[2] 9mm/sec CNT50 FROB[1] ;\n");
+  CHECK(unknown.moves[1].fixed[0]);
+  CHECK(unknown.left_alone[0].why == "the word 'FROB[1]' is not supported");
+}
