@@ -5,13 +5,13 @@
 #include <algorithm>
 #include <limits>
 
-#include "compensation/match/skeleton.hpp"
 #include "compensation/plan/arc_angles.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
+#include "counterflex/program/skeleton.hpp"
 
 namespace counterflex {
 namespace {

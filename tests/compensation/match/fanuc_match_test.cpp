@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "compensation/match/corrected_moves.hpp"
-#include "compensation/match/skeleton.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
+#include "counterflex/program/skeleton.hpp"
 
 using namespace counterflex;
 

@@ -1,0 +1,12 @@
+#pragma once
+/// What of a block of Klartext correction never changes.
+#include <string>
+
+#include "counterflex/program/program.hpp"
+
+namespace counterflex {
+
+/// As `skeleton`, of a program in Klartext.
+std::string klartext_skeleton(const Program& program, const Move& move);
+
+}  // namespace counterflex

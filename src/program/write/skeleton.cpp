@@ -1,0 +1,124 @@
+#include "program/write/skeleton.hpp"
+
+#include <algorithm>
+#include <cctype>
+#include <string_view>
+#include <vector>
+
+#include "program/text/scanner.hpp"
+
+namespace counterflex {
+namespace {
+
+// Whether it is a word of one axis: a polar word gives two.
+bool is_height(const Move& move, const PackedAxisWord& word) {
+  std::size_t axes = 0;
+  for (const auto& other : move.words) axes += word && other && other->number.begin == word->number.begin;
+  return axes == 1;
+}
+
+std::vector<Span> rewritten_numbers(const Move& move) {
+  std::vector<Span> numbers;
+  const auto add = [&](const PackedAxisWord& word) {
+    // A block may also have words of one before it: the centre or the surface that it uses.
+    if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
+  };
+  for (std::size_t axis = 0; axis < (move.called ? 2 : 3); ++axis)
+    if (!move.polar || is_height(move, move.words[axis])) add(move.words[axis]);
+  if (move.called && move.called->modal.empty())
+    for (const auto& height : move.called->heights) add(height);
+  if (move.orientation)
+    for (const auto& word : move.orientation->words) add(word);
+  if (move.arc) {
+    for (const auto& word : move.arc->centre_words) add(word);
+    add(move.arc->radius_word);
+  }
+  if (move.cycle) {
+    add(move.cycle->bottom_word);
+    add(move.cycle->retract_word);
+  }
+  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
+  return numbers;
+}
+
+void drop_name(std::string& text) {
+  while (!text.empty() && std::isalpha(static_cast<unsigned char>(text.back())) != 0) text.pop_back();
+}
+
+// Takes the letter off with which a word begins, or its name and sign of equality, with the AC( or IC( of
+// Sinumerik. True where a bracket has been taken off.
+bool drop_letter(std::string& text, bool klartext) {
+  if (text.empty()) return false;
+  const bool bracket = text.back() == '(';
+  if (bracket) text.pop_back(), drop_name(text);
+  const bool named = !text.empty() && text.back() == '=';
+  if (!text.empty()) text.pop_back();
+  if (klartext && !text.empty() && upper(text.back()) == 'I') text.pop_back();
+  if (named) drop_name(text);
+  return bracket;
+}
+
+// The end of a word of motion (G0 to G3, with zeros before the digit) at `i`; `i` if it is missing.
+std::size_t motion_word_end(const std::string& text, std::size_t i) {
+  if (upper(text[i]) != 'G') return i;
+  std::size_t end = i + 1;
+  while (end + 1 < text.size() && text[end] == '0' && is_digit(text[end + 1])) ++end;
+  if (end >= text.size() || text[end] < '0' || text[end] > '3') return i;
+  const bool goes_on = end + 1 < text.size() && (is_digit(text[end + 1]) || text[end + 1] == '.');
+  return goes_on ? i : end + 1;
+}
+
+// The end of a word of that letter or name at `i`; `i` if it is missing.
+std::size_t word_end(const std::string& text, std::size_t i, std::string_view name) {
+  for (std::size_t k = 0; k < name.size(); ++k)
+    if (i + k >= text.size() || upper(text[i + k]) != name[k]) return i;
+  return std::min(text.find_first_not_of("0123456789.", i + name.size()), text.size());
+}
+
+// Without words of motion, and without those that `names` gives.
+std::string without_motion(const std::string& text, const std::vector<std::string_view>& names) {
+  std::string kept;
+  for (std::size_t i = 0; i < text.size();) {
+    if (text[i] == ';') return kept + text.substr(i);
+    std::size_t end = text[i] == '(' ? std::min(text.find(')', i), text.size() - 1) + 1 : i;
+    kept += text.substr(i, end - i);
+    if (end > i) {
+      i = end;
+      continue;
+    }
+    end = motion_word_end(text, i);
+    for (const std::string_view name : names)
+      if (end == i) end = word_end(text, i, name);
+    if (end == i) kept += text[end++];
+    i = end;
+  }
+  return kept;
+}
+
+}  // namespace
+
+std::string without_rewritten_words(const Program& program, const Move& move, bool klartext) {
+  std::string text;
+  std::size_t at = move.block.begin;
+  const auto keep = [&](std::size_t end) {
+    for (; at < end; ++at)
+      if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
+  };
+  for (const Span& number : rewritten_numbers(move)) {
+    keep(number.begin);
+    const bool bracket = drop_letter(text, klartext);
+    at = number.end;
+    if (bracket) at = program.text.find(')', at) + 1;
+  }
+  keep(move.block.end);
+  return text;
+}
+
+std::string gcode_skeleton(const Program& program, const Move& move) {
+  std::vector<std::string_view> names{"N"};
+  if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
+  if (move.arc) names.insert(names.end(), {"P", "TURN="});
+  return without_motion(without_rewritten_words(program, move, false), names);
+}
+
+}  // namespace counterflex
