@@ -150,7 +150,9 @@ struct CornerEnds {
 /// What a target states of the turns of rotary axes, beside its pose. A corrected target keeps it.
 enum class StatedTurns : std::uint8_t {
   none,
-  signs,  ///< whether each rotary axis is negative: T of KUKA
+  signs,       ///< whether each rotary axis is negative: T of KUKA
+  quadrants,   ///< the quarter turns of axes 1, 4 and 6: confdata of ABB
+  half_turns,  ///< how often axes 1, 4 and 6 are beyond +-180 deg: CONFIG of FANUC, RCONF of Yaskawa
 };
 
 /// The tool's orientation along a move of a six-axis machine, in program coordinates. The numbers are as

@@ -106,18 +106,51 @@ TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {
   return {&model, segment.wanted.end, orientation_at(segment, 1)};
 }
 
-// The failure of an axis whose sign the target states, between the values that the control shows for the
-// wanted and the commanded pose (rad).
-std::optional<Failure> sign_failure(const Travel& travel, double wanted, double commanded, int line) {
+// What a target states of a rotary axis whose control shows `angle` (rad), as a number.
+int stated(StatedTurns turns, double angle) {
   constexpr double exact = 1e-9;
+  switch (turns) {
+    case StatedTurns::signs:
+      return angle < -exact ? 1 : 0;
+    case StatedTurns::quadrants:
+      return static_cast<int>(std::floor((angle + exact) / (pi / 2)));
+    case StatedTurns::half_turns:
+      return static_cast<int>(std::floor((angle + pi + exact) / (2 * pi)));
+    case StatedTurns::none:
+      break;
+  }
+  return 0;
+}
+
+const char* stated_words(StatedTurns turns) {
+  switch (turns) {
+    case StatedTurns::signs:
+      return "zero, but T of the target states its sign";
+    case StatedTurns::quadrants:
+      return "a multiple of 90 deg, but confdata of the target states its quadrant";
+    default:
+      return "180 deg, but the configuration of the target states its turn";
+  }
+}
+
+// Whether a target states something of axis `i`: T of all rotary axes, the others of axes 1, 4 and 6 of an
+// arm.
+bool is_stated(StatedTurns turns, const Mechanism& mechanism, std::size_t i) {
+  if (mechanism.travel[i].kind != JointKind::revolute) return false;
+  return turns == StatedTurns::signs || mechanism.travel.size() != 6 || i == 0 || i == 3 || i == 5;
+}
+
+// The failure of an axis of which the target states something, between the values that the control shows for
+// the wanted and the commanded pose (rad).
+std::optional<Failure> stated_failure(StatedTurns turns, const Travel& travel, double wanted,
+                                      double commanded, int line) {
   const double from = std::remainder(wanted, 2 * pi), to = from + commanded - wanted;
-  if ((from >= -exact) == (to >= -exact)) return std::nullopt;
+  if (stated(turns, from) == stated(turns, to)) return std::nullopt;
   return Failure{
       ErrorKind::not_compensated, line,
-      fmt::format("the correction would move {} from {:.4f} to {:.4f} deg, across zero, but T of the "
-                  "target states its sign: the control would turn it by 360 deg; move to this place "
-                  "by joint angles, or move the part",
-                  travel.name, from / deg, to / deg)};
+      fmt::format("the correction would move {} from {:.4f} to {:.4f} deg, across {}: the control would stop "
+                  "or turn it by 360 deg; move to this place by joint angles, or move the part",
+                  travel.name, from / deg, to / deg, stated_words(turns))};
 }
 
 }  // namespace
@@ -127,7 +160,8 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
   for (const Piece& piece : pieces) {
     if (piece.u1 != 1 || !piece.turn) continue;
     const Move& move = move_of(job, piece);
-    if (!move.orientation || move.orientation->stated_turns == StatedTurns::none) continue;
+    const StatedTurns turns = move.orientation ? move.orientation->stated_turns : StatedTurns::none;
+    if (turns == StatedTurns::none) continue;
     const Model& model = model_with(job.model, job.tools, move.tool);
     if (!solver) solver.emplace(job);
     const NominalResult wanted = solver->nominal(wanted_end(job, piece, model));
@@ -140,9 +174,10 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
                           from = shown_values(mechanism.shown, first),
                           to = shown_values(mechanism.shown, last + full_turns(mechanism, last, first));
     for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
-      if (mechanism.travel[i].kind != JointKind::revolute) continue;
+      if (!is_stated(turns, mechanism, i)) continue;
       const auto k = static_cast<Eigen::Index>(i);
-      if (auto failure = sign_failure(mechanism.travel[i], from[k], to[k], piece.line)) return failure;
+      if (auto failure = stated_failure(turns, mechanism.travel[i], from[k], to[k], piece.line))
+        return failure;
     }
   }
   return std::nullopt;

@@ -115,10 +115,13 @@ inline double angle_between(const Matrix3& a, const Matrix3& b) {
 }
 
 /// The machine of `Arm` for the product.
+inline std::string arm_text() {
+  return replaced(read_file(robot), "xyz_mm = [250, 0, 120]",
+                  "xyz_mm = [250, 0, 120]\nrpy_deg = [0, -90, 0]");
+}
+
 inline Machine arm_machine() {
-  const std::string text =
-      replaced(read_file(robot), "xyz_mm = [250, 0, 120]", "xyz_mm = [250, 0, 120]\nrpy_deg = [0, -90, 0]");
-  return read_machine(text, "arm.toml");
+  return read_machine(arm_text(), "arm.toml");
 }
 
 }  // namespace counterflex::test

@@ -106,7 +106,9 @@ void note_followed(TpReading& r, const TpMotion& motion) {
 void add_line(TpReading& r, const RobotLine& line, const TpMotion& motion, const TpPoint& point) {
   const Motion kind = motion.type == 'J' ? Motion::rapid : Motion::feed;
   Move move = begin_robot_move(r.robot, line, kind);
-  end_at_target(r.robot, point.target, {.motion = kind, .passes = motion.passes}, move);
+  const StatedTurns turns = motion.type == 'J' ? StatedTurns::half_turns : StatedTurns::none;
+  end_at_target(r.robot, point.target, {.motion = kind, .stated_turns = turns, .passes = motion.passes},
+                move);
   keep_whole(r, motion, point, move);
   r.robot.program.moves.push_back(std::move(move));
   note_followed(r, motion);

@@ -25,7 +25,7 @@ void forget(RapidReading& r) {
 void begin_routine(RapidReading& r, const RapidStatement& statement) {
   forget(r);
   r.in_function = statement.head == "FUNC";
-  r.any_configuration = false;  // another routine may have changed it
+  r.any_configuration = r.any_joint_configuration = false;  // another routine may have changed it
   r.robot.open_bodies = statement.head == "TRAP" ? 1 : 0;
   // Another routine may have selected the mode.
   r.circle_path = r.module.calls("CIRPATHMODE") ? "UNKNOWN" : "";
@@ -43,6 +43,7 @@ void read_state(RapidReading& r, const RobotLine& line, const RapidStatement& st
   if (statement.head == "VELSET") r.scaled_speed = true;
   if (statement.head == "CIRPATHMODE") r.circle_path = certain ? arguments : "UNKNOWN";
   if (statement.head == "CONFL") r.any_configuration = certain && arguments == "\\OFF";
+  if (statement.head == "CONFJ") r.any_joint_configuration = certain && arguments == "\\OFF";
   if (statement.head != "SINGAREA") return;
   if (arguments == "\\LOCKAXIS4" || certain) r.locks_axis = arguments == "\\LOCKAXIS4";
   if (arguments == "\\WRIST")
@@ -72,7 +73,7 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
     return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", name));
   if (is_motionless_instruction(head) && !r.module.has_routine(head)) return read_state(r, line, statement);
   forget(r);
-  r.any_configuration = false;
+  r.any_configuration = r.any_joint_configuration = false;
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
 }
 

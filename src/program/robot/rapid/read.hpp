@@ -17,6 +17,7 @@ struct RapidReading {
   bool in_function = false;
   bool scaled_speed = false;       ///< VelSet changes all speeds
   bool any_configuration = false;  ///< ConfL\Off: the control does not compare confdata on lines
+  bool any_joint_configuration = false;  ///< ConfJ\Off: the control does not compare confdata on joint moves
   std::string configuration{};     ///< confdata of the last followed target
   bool locks_axis = false;         ///< SingArea\LockAxis4
   std::string tool{};              ///< of the last followed motion, in upper case

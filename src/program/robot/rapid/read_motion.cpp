@@ -181,7 +181,12 @@ void enter(RapidReading& r, const RapidStatement& statement, const MoveArguments
 void add_line(RapidReading& r, const RobotLine& line, const MoveArguments& motion, Motion kind) {
   Move move = begin_robot_move(r.robot, line, kind);
   const bool passes = motion.zone.passes && !motion.text.has("INPOS");
-  end_at_target(r.robot, motion.targets[0].target, {.motion = kind, .passes = passes}, move);
+  const bool states_turns = kind == Motion::rapid && !r.any_joint_configuration;
+  end_at_target(r.robot, motion.targets[0].target,
+                {.motion = kind,
+                 .stated_turns = states_turns ? StatedTurns::quadrants : StatedTurns::none,
+                 .passes = passes},
+                move);
   keep_whole(r, motion, move);
   r.robot.program.moves.push_back(std::move(move));
 }

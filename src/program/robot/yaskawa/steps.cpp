@@ -62,7 +62,9 @@ void read_joint_step(JbiReading& r, const RobotLine& line, const JbiMotion& moti
   if (!why.empty()) return add_joint_move(r.robot, line, std::move(why));
   enter(r, motion, target);
   mark_followed(r, motion, target);
-  add_target_move(r.robot, line, target.numbers, {.motion = Motion::rapid, .passes = motion.passes});
+  add_target_move(
+      r.robot, line, target.numbers,
+      {.motion = Motion::rapid, .stated_turns = StatedTurns::half_turns, .passes = motion.passes});
 }
 
 /// `is_start`: of a circle, whose first MOVC is a line to its start.
