@@ -45,6 +45,15 @@ TEST_CASE("a stretched arm has its tip at the sum of the lengths") {
   CHECK((place.X_MT.p - Vector3(350 + 1150 + 1200 + 215 + 250, 0, 675 - 41 + 120) * mm).norm() < 1e-12);
 }
 
+TEST_CASE("joint values of a tip are those nearest to home") {
+  const Model model = arm();
+  const Matrix3 R = Eigen::AngleAxisd(90 * deg, Vector3::UnitY()).toRotationMatrix();
+  const KinematicPlace place = place_at_tip(model, {R, Vector3(1750, -0.001, 640) * mm});
+  REQUIRE(place.status == Status::converged);
+  CHECK((place.shown - actuator_values(model.mechanism, model.home)).cwiseAbs().maxCoeff() < 180 * deg);
+  CHECK((place_at_values(model, place.shown).X_MT.p - place.X_MT.p).norm() < 1e-9);
+}
+
 TEST_CASE("joint values are as the control shows them") {
   Machine machine = load_machine(COUNTERFLEX_SOURCE_DIR "/tests/statics/data/serial6r_joints.toml");
   const Pose X = place_at_values(prepare(machine), degrees({0, -80, 100, 0, 60, 0})).X_MT;

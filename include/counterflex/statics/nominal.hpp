@@ -78,6 +78,10 @@ Pose tip(const Mechanism& mechanism, const Configuration& configuration);
 bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho);
 bool within_travel(const Mechanism& mechanism, const double* rho);
 
+/// Full turns (rad) to add to `rho`, the values of all actuators, so that rotary ones are nearest to `near`.
+Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& rho,
+                           const Eigen::VectorXd& near);
+
 /// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and
 /// its condition (lengths in units of l; infinite where a zero mode of the closures moves the platform).
 struct ActuatorJacobian {

@@ -25,16 +25,6 @@ std::optional<Failure> configuration_failure(const Model& model, const Configura
                              margin->angle / deg, margin->what, least_arm_margin / deg)};
 }
 
-// Full turns by which `values` are nearest to `near`: for rotary actuators, else zero (rad).
-Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& values,
-                           const Eigen::VectorXd& near) {
-  Eigen::VectorXd turns = Eigen::VectorXd::Zero(values.size());
-  for (std::size_t i = 0; i < mechanism.travel.size(); ++i)
-    if (const auto k = static_cast<Eigen::Index>(i); mechanism.travel[i].kind == JointKind::revolute)
-      turns[k] = 2 * pi * std::round((near[k] - values[k]) / (2 * pi));
-  return turns;
-}
-
 void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd& values, int line) {
   if (way.first.size() != values.size()) {
     way = {values, values, {}, {}};

@@ -25,7 +25,8 @@ double margin_of(const Travel& travel, double shown) {
   return std::min(shown - travel.min, travel.max - shown);
 }
 
-KinematicPlace place_of(const Model& model, const NominalResult& nominal) {
+/// `up_to_turns`: rotary values are known but for full turns; those nearest to home are shown.
+KinematicPlace place_of(const Model& model, const NominalResult& nominal, bool up_to_turns) {
   KinematicPlace place;
   place.status = nominal.status;
   if (nominal.status != Status::converged) {
@@ -35,7 +36,8 @@ KinematicPlace place_of(const Model& model, const NominalResult& nominal) {
     return place;
   }
   const Mechanism& mechanism = model.mechanism;
-  const Eigen::VectorXd rho = actuator_values(mechanism, nominal.configuration);
+  Eigen::VectorXd rho = actuator_values(mechanism, nominal.configuration);
+  if (up_to_turns) rho += full_turns(mechanism, rho, actuator_values(mechanism, model.home));
   place.X_MT = tip(mechanism, nominal.configuration);
   place.shown = shown_values(mechanism.shown, rho);
   place.margins = arm_margins(model, nominal.configuration);
@@ -156,11 +158,12 @@ Json place_json(const KinematicPlace& place, const KinematicsReport& report) {
 }  // namespace
 
 KinematicPlace place_at_values(const Model& model, const Eigen::VectorXd& shown) {
-  return place_of(model, nominal_forward(model, model.home, joint_values(model.mechanism.shown, shown)));
+  return place_of(model, nominal_forward(model, model.home, joint_values(model.mechanism.shown, shown)),
+                  false);
 }
 
 KinematicPlace place_at_tip(const Model& model, const Pose& X_MT) {
-  return place_of(model, follow(model, model.home, X_MT));
+  return place_of(model, follow(model, model.home, X_MT), true);
 }
 
 std::string to_text(const KinematicsReport& report) {

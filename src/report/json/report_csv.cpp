@@ -1,6 +1,7 @@
 #include <array>
 
 #include "counterflex/compensation/options.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/json/fixed_digits.hpp"
@@ -20,13 +21,17 @@ void add(std::string& row, double value, int digits) {
   append_fixed(row, value, digits);
 }
 
+void add_rotation(std::string& row, const Vector3& rotation) {
+  for (int i = 0; i < 3; ++i) add(row, rotation[i] / deg, angle_digits);
+}
+
 void add_deviation(std::string& row, const Vector6& d, bool known) {
   if (!known) {
     row.append(6, ',');
     return;
   }
   for (int i = 0; i < 3; ++i) add(row, d[i] / mm, length_digits);
-  for (int i = 3; i < 6; ++i) add(row, d[i] / deg, angle_digits);
+  add_rotation(row, d.tail<3>());
 }
 
 // An unsolved waypoint has no deviations; zeros would look like perfection.
@@ -38,6 +43,10 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
   add(text, w.s / mm, path_digits);
   for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
+  if (w.R_MT)
+    add_rotation(text, rotation_between(*w.R_MT, Matrix3::Identity()));
+  else
+    text.append(3, ',');
   for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
   add_deviation(text, w.before, solved);
   add_deviation(text, causes.geometry, attributed);
@@ -54,7 +63,8 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
 }  // namespace
 
 std::string csv_header() {
-  std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+  std::string row =
+      "index,line,cutting,s_mm,x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
   for (const char* prefix : prefixes)
     for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
   for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})

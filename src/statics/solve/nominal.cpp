@@ -90,6 +90,15 @@ bool within_travel(const Mechanism& mechanism, const double* rho) {
   return true;
 }
 
+Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& rho,
+                           const Eigen::VectorXd& near) {
+  Eigen::VectorXd turns = Eigen::VectorXd::Zero(rho.size());
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i)
+    if (const auto k = static_cast<Eigen::Index>(i); mechanism.travel[i].kind == JointKind::revolute)
+      turns[k] = 2 * pi * std::round((near[k] - rho[k]) / (2 * pi));
+  return turns;
+}
+
 bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
   return within_travel(mechanism, rho.data());
 }
