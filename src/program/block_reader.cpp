@@ -77,6 +77,7 @@ void BlockReader::take_window(Program& to) {
   to.operation_titles = program_.operation_titles;
   to.external_axes_move = program_.external_axes_move;
   to.external_axes = program_.external_axes;
+  to.zones = program_.zones;
   to.block_count = program_.block_count;
   to.evaluated = program_.evaluated;
   to.expansion = program_.expansion;

@@ -1,5 +1,7 @@
 #include "counterflex/program/overview.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 namespace counterflex {
@@ -59,6 +61,7 @@ void add_window(Overview& overview, const Program& window) {
   overview.remarks = window.remarks;
   overview.external_axes_move = window.external_axes_move;
   overview.external_axes = window.external_axes;
+  overview.zones = window.zones;
   overview.path_tolerances = window.path_tolerances;
   add_text(overview, window.text);
   for (const Move& move : window.moves) add_move(overview, move);
@@ -69,6 +72,14 @@ void add_window(Overview& overview, const Program& window) {
   overview.lines = window.expansion.file_lines > 0
                        ? window.expansion.file_lines
                        : std::max({overview.lines, overview.text_lines, last_move});
+}
+
+std::string zones_in_words(const Zones& zones) {
+  if (zones.count == 0) return "";
+  const std::string size =
+      zones.largest_mm > 0 ? fmt::format("largest {:.6g} mm, line {}", zones.largest_mm, zones.largest_line)
+                           : "their length is not known";
+  return fmt::format("round {} target{}, {}", zones.count, zones.count == 1 ? "" : "s", size);
 }
 
 Overview overview_of(const Program& whole) {

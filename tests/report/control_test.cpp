@@ -50,6 +50,18 @@ TEST_CASE("feed moves shorter in time than a control's block are counted, with t
   CHECK(to_json(report).find("\"first_line\": 3") != std::string::npos);
 }
 
+TEST_CASE("the zones of the corrected program are those of the report") {
+  const std::string original = "def a():\n movel(p[0,0,0,0,0,0])\n movel(p[0,0,1,0,0,0],r=0.002)\nend\n";
+  const RunReport report = report_on(
+      original, "def a():\n movel(p[0,0,0,0,0,0],r=0.001)\n movel(p[0,0,1,0,0,0],r=0.0015)\nend\n", 0, "ur");
+  CHECK(zones_in_words(report.control.zones) == "round 2 targets, largest 1.5 mm, line 3");
+  CHECK(
+      details_text(report, false).find("  zones of the corrected program round 2 targets, largest 1.5 mm") !=
+      std::string::npos);
+  CHECK(to_json(report).find("\"zones\": {\n      \"count\": 2,\n      \"largest_mm\": 1.5") !=
+        std::string::npos);
+}
+
 TEST_CASE("of short blocks that differ by rounding the first is the shortest") {
   const RunReport report = report_on(start, start + "G1 X0.01 F600\nX0.02\nX0.03\nX0.04\n");
   CHECK(report.control.short_blocks->count == 4);

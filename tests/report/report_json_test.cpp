@@ -250,6 +250,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
       "longest_line": 1,
       "near_limit": 0
     },
+    "zones": null,
     "path_tolerances": [],
     "plunges": 0,
     "rapids": 2

@@ -35,6 +35,7 @@ struct Overview {
   std::optional<int> first_cycle_line;         ///< line of the first hole of a cycle
   std::optional<Remark> external_axes_move{};  ///< as in Program
   std::array<std::optional<ExternalAxis>, 6> external_axes{};  ///< as in Program
+  Zones zones{};                                               ///< as in Program
   bool turns_tool = false;                                     ///< whether moves give the tool's orientation
   bool commented_force = false;  ///< whether a move is under a FORCE comment that is not zero
 };
@@ -46,6 +47,9 @@ void add_window(Overview& overview, const Program& window);
 
 /// The overview of a program that is one window.
 Overview overview_of(const Program& whole);
+
+/// "round 12 targets, largest 10 mm, line 7"; empty without zones.
+std::string zones_in_words(const Zones& zones);
 
 // Lengths of the lines of a program, compared with the limit of the control.
 

@@ -377,6 +377,13 @@ struct ExternalAxis {
   int line = 0;
 };
 
+/// Targets that a robot passes without a stop: the control rounds the path there.
+struct Zones {
+  std::size_t count = 0;
+  double largest_mm = 0;  ///< 0: no zone has a length that is known
+  int largest_line = 0;   ///< of the first zone of that size
+};
+
 /// A program, or a window of one. In a window, `text` is some lines of the program, and `moves`, `left_alone`
 /// and `counts` belong to these lines. The other members describe the program from its first line to the end
 /// of the window.
@@ -405,8 +412,9 @@ struct Program {
   /// The first target of a robot program whose external axes differ from those of the first target.
   std::optional<Remark> external_axes_move{};
   std::array<std::optional<ExternalAxis>, 6> external_axes{};  ///< E1 to E6 at the first target that has them
-  std::size_t block_count = 0;                                 ///< lines with at least one word
-  std::size_t evaluated = 0;  ///< number of words that were variables or expressions and were evaluated
+  Zones zones{};
+  std::size_t block_count = 0;  ///< lines with at least one word
+  std::size_t evaluated = 0;    ///< number of words that were variables or expressions and were evaluated
   Expansion expansion{};
 };
 

@@ -43,6 +43,7 @@ struct WriteOptions {
   /// Numbers of the program: the pieces of a block Nn after the first become Nn+1, Nn+2 ... if these are
   /// free. Null: they have no N.
   const BlockNumbers* number_pieces = nullptr;
+  std::size_t most_points = 0;  ///< of a robot program; 0: any number
 };
 
 /// A point on the path of a move. The tool reaches it on a line, or on an arc about a centre in the move's
@@ -106,6 +107,13 @@ TextPosition text_position_between(const Move& last, const Move& next, const Tex
 Curve as_written(const Move& move, const TextPosition& before, const Via& via, bool is_end,
                  const WriteOptions& options);
 
+/// Points of a robot program, from its first window on: targets, or what the control counts (SizeLimit).
+struct PointCount {
+  std::size_t before = 0;     ///< in the original
+  std::size_t after = 0;      ///< in the written program
+  int first_line_beyond = 0;  ///< line of the original with the first point above `most_points`; 0: none
+};
+
 struct Rewritten {
   std::string text;
   std::size_t changed_words = 0;
@@ -116,6 +124,7 @@ struct Rewritten {
   /// Pieces without N, because `WriteOptions::number_pieces` has no free numbers.
   std::size_t unnumbered_pieces = 0;
   int first_unnumbered_line = 0;  ///< line of the first block with such pieces; 0: there are no such pieces
+  PointCount points;
 };
 
 class ProgramWriter;

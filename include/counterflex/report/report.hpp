@@ -181,6 +181,7 @@ struct ShortBlocks {
 struct ControlFacts {
   std::optional<ShortBlocks> short_blocks;  ///< of the corrected program; empty without such a program
   std::optional<LineLengths> lines;         ///< likewise
+  Zones zones;                              ///< of the corrected program, or of the original without it
   std::vector<PathTolerance> tolerances;    ///< of the original
   std::size_t plunges = 0;                  ///< feed moves of the original straight down in Z
   std::size_t rapids = 0;                   ///< and its rapids

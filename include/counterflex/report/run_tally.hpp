@@ -186,6 +186,7 @@ class RunTally {
   /// Of the corrected program; none before `add_corrected`.
   const std::optional<LineLengths>& lines() const { return lines_; }
   const std::optional<ShortBlocks>& short_blocks() const { return short_blocks_; }
+  const std::optional<Zones>& zones() const { return zones_; }
 
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
@@ -208,6 +209,7 @@ class RunTally {
   std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
   std::optional<LineLengths> lines_;
   std::optional<ShortBlocks> short_blocks_;
+  std::optional<Zones> zones_;
 };
 
 }  // namespace counterflex

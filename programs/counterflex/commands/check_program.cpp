@@ -136,6 +136,7 @@ std::string text_of(const ProgramFacts& facts) {
   text += row(robot ? "frames" : "offsets", offsets_text(moves));
   if (moves.with_force > 0)
     text += row("forces", fmt::format("FORCE comments act on {} moves", moves.with_force));
+  if (program.zones.count > 0) text += row("zones", zones_in_words(program.zones));
   if (facts.corrected) text += row("header", "COUNTERFLEX 1: a corrected program, not compensated again");
   text += plan_text(facts.planner.plan());
   if (!program.remarks.empty()) text += "\nremarks\n";

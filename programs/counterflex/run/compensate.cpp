@@ -6,6 +6,7 @@
 
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/text.hpp"
+#include "counterflex/program/size_limit.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -37,7 +38,8 @@ struct Unnumbered {
 };
 
 /// Runs window by window, to the first failure. Reads windows while others are solved.
-std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
+std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, PointCount& points,
+                                      Console& console) {
   Windows windows(run, console);
   std::mutex speaking;
   Unnumbered unnumbered;
@@ -61,6 +63,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
     unnumbered.add(window.counts);
+    points = window.counts.points;
     alone.unlock();
     add(window, tally, files);
   };
@@ -69,6 +72,46 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
                          {read, begun, solved, done});
   unnumbered.warn(run.program.file, console);
   return failure;
+}
+
+/// Reads all bytes of a file.
+std::string text_of(FileReader& bytes) {
+  constexpr std::size_t at_once = 1 << 20;
+  std::string text;
+  bytes.rewind();
+  while (bytes.append(text, at_once) > 0) {
+  }
+  bytes.rewind();
+  return text;
+}
+
+/// Writes the program as parts. What forbids it is searched in the original first, for its line.
+void divide(const Options& options, Run& run, const OutputPaths& paths, RunFiles& files) {
+  const std::size_t most = *options.max_points;
+  const std::string &file = run.program.file, &dialect = run.program.dialect;
+  if (!run.file.data_lists.empty())
+    throw InputError(
+        ErrorKind::program_text, {file},
+        fmt::format("the corrected program has more than {} points, but it is not divided into parts: "
+                    "they would not see its data list {}; write the targets into the program, or give "
+                    "--max-points a larger number",
+                    most, shown_name(run.file.data_lists.front().path)));
+  divide_program(file, dialect, text_of(run.file.bytes), most);
+  const std::vector<ProgramPart> parts = divide_program(paths.program, dialect, files.held_program(), most);
+  files.write_parts(parts, part_paths(paths, parts, options));
+  run.facts.warnings.push_back(
+      {0, fmt::format("the program calls {} parts of at most {} points: {} to {}; whether the robot stops "
+                      "between two parts depends on the control",
+                      parts.size() - 1, most, parts[1].name, parts.back().name)});
+}
+
+/// The written program, in parts if it has too many points.
+void finish_program(const Options& options, Run& run, const PointCount& points, const OutputPaths& paths,
+                    RunFiles& files) {
+  const bool held = options.max_points && can_be_divided(run.program.dialect);
+  if (held && points.after > *options.max_points) return divide(options, run, paths, files);
+  refuse_too_many_points(run.program.file, run.program.dialect, points, options.max_points);
+  if (held) files.write_held();
 }
 
 }  // namespace
@@ -81,9 +124,12 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   refuse_what_cannot_be_compensated(*run);
   prepare_writing(options, *run);
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
+  if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();
   RunTally tally = tally_for(options, *run);
-  const std::optional<Failure> failure = compensate_all(*run, tally, files, console);
+  PointCount points;
+  const std::optional<Failure> failure = compensate_all(*run, tally, files, points, console);
   run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
+  if (!failure) finish_program(options, *run, points, paths, files);
   if (failure && failure->kind == ErrorKind::usage)
     return print_failure(*run, failure, console);  // no result: an option is wrong
   return report_end(

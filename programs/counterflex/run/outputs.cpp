@@ -122,6 +122,24 @@ bool belongs_to_control(const std::string& list) {
   return fs::path(list).filename().string().starts_with('$');
 }
 
+std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<ProgramPart>& parts,
+                                    const Options& options) {
+  if (paths.program == "-")
+    throw InputError(
+        ErrorKind::usage, {},
+        "the program is divided into parts, and only one file can go to standard output; give -o a "
+        "file");
+  const fs::path main(paths.program);
+  std::vector<std::string> files{paths.program};
+  for (std::size_t i = 1; i < parts.size(); ++i)
+    files.push_back((main.parent_path() / parts[i].name).string() + main.extension().string());
+  check_paths(files, inputs_of(options), options.folders);
+  if (!options.force_overwrite)
+    for (const std::string& file : files) refuse_foreign({{file, has_corrected_header}});
+  files.erase(files.begin());
+  return files;
+}
+
 std::string canonical_name(const std::string& path) {
   std::error_code ignored;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
@@ -253,8 +271,26 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
   if (csv_) csv_->write(csv_header());
 }
 
+void RunFiles::write_held() {
+  const std::string text = std::move(*held_);
+  held_.reset();
+  add_program(text);
+}
+
+void RunFiles::write_parts(const std::vector<ProgramPart>& parts, const std::vector<std::string>& paths) {
+  held_.reset();
+  program_->write(parts.front().text);
+  for (std::size_t i = 0; i < paths.size(); ++i) {
+    FileWriter& file = parts_.emplace_back(paths[i]);
+    file.hash_along();
+    file.write(parts[i + 1].text);
+  }
+}
+
 void RunFiles::add_program(std::string_view text) {
-  if (splitter_)
+  if (held_)
+    held_->append(text);
+  else if (splitter_)
     splitter_->add(text);
   else if (program_)
     program_->write(text);
@@ -306,6 +342,7 @@ void RunFiles::publish(bool with_program) {
   if (with_program) {
     const std::vector<FileWriter*> lists = written_lists();
     files.insert(files.begin(), lists.begin(), lists.end());
+    for (FileWriter& part : parts_) files.push_back(&part);
     files.push_back(if_any(program_));
   }
   publish_together(files);

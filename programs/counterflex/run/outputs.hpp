@@ -8,6 +8,7 @@
 
 #include "counterflex/batch/manifest.hpp"
 #include "counterflex/files/file_writer.hpp"
+#include "counterflex/program/parts.hpp"
 #include "counterflex/program/program_files.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
@@ -42,6 +43,12 @@ OutputPaths output_paths(const Options& options);
 /// The name of the corrected data list: the list's own name in the folder of the corrected program, or
 /// NAME.comp.dat if that is the list itself. The list beside the program gets the stem of the corrected one.
 std::string corrected_list(const std::string& list, const std::string& program, const std::string& corrected);
+
+/// The files of the parts of a divided program, NAME_1.EXT ... in the folder of the corrected program, which
+/// is the first of `parts`. Throws as `output_paths` and `refuse_foreign`, and ErrorKind::usage for standard
+/// output.
+std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<ProgramPart>& parts,
+                                    const Options& options);
 
 /// Whether a data list has a name of the control, such as $config.dat: all programs use it.
 bool belongs_to_control(const std::string& list);
@@ -90,6 +97,14 @@ class RunFiles {
   void add_program(std::string_view text);
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
+  /// From now on `add_program` collects the program: it may be divided when it is complete.
+  void hold_program() { held_.emplace(); }
+  const std::string& held_program() const { return *held_; }
+
+  /// Writes what is held: whole, or the main program and its parts into these files.
+  void write_held();
+  void write_parts(const std::vector<ProgramPart>& parts, const std::vector<std::string>& paths);
+
   /// Writes report and plot, if requested, when the run has ended. `program`: the original one.
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves,
                   FileReader& program);
@@ -109,7 +124,8 @@ class RunFiles {
   CsvColumns columns_;
   std::size_t next_row_ = 0;
   std::optional<FileSplitter> splitter_;  ///< of a program with data lists
-  std::vector<FileWriter> lists_;
+  std::vector<FileWriter> lists_, parts_;
+  std::optional<std::string> held_;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
   std::vector<FileHash> published_;
 };

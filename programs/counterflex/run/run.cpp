@@ -10,6 +10,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/program/size_limit.hpp"
 #include "counterflex/report/formats.hpp"
 #include "process/exit_status.hpp"
 #include "process/standard_output.hpp"
@@ -246,8 +247,21 @@ void refuse_what_cannot_be_compensated(const Run& run) {
         "twice");
 }
 
+namespace {
+
+std::size_t most_points(const Options& options, const std::string& dialect) {
+  if (options.max_points && !is_robot_dialect(dialect))
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--max-points limits robot programs; {} is not one, leave it out", dialect));
+  const SizeLimit* limit = size_limit(dialect);
+  return options.max_points.value_or(limit != nullptr ? limit->most : 0);
+}
+
+}  // namespace
+
 void prepare_writing(const Options& options, Run& run) {
   run.options.write.header = header_of(options, run);
+  run.options.write.most_points = most_points(options, run.program.dialect);
   if (!options.number_pieces) return;
   run.numbers.finish();
   run.options.write.number_pieces = &run.numbers;

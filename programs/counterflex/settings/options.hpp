@@ -103,6 +103,7 @@ struct Options {
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: as in each word
   bool number_pieces = false;
+  std::optional<std::size_t> max_points;  ///< of a robot program
   int threads = 1;
   double min_block_ms = 2;
 

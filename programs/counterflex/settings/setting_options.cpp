@@ -182,6 +182,13 @@ const std::array option_table{
         "Give the pieces of a split block Nn the numbers Nn+1, Nn+2 ..., if they are free", "", false,
         [](Text name, Text text, Options& options) { options.number_pieces = truth_of(name, text); }},
     SettingOption{
+        "max-points", "--max-points", "N", group::correction,
+        "The most targets that the control allows in a robot program (default: FANUC TP 999 positions, "
+        "URScript 2500)",
+        "", false,
+        [](Text name, Text text,
+           Options& options) { options.max_points = integer_of(name, text, 1, 1'000'000'000); }},
+    SettingOption{
         "threads", "--threads", "N", group::correction,
         "Threads; the output does not depend on it (default: all processors)", "", false,
         [](Text name, Text text, Options& options) { options.threads = integer_of(name, text, 1, 1024); }},

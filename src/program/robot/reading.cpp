@@ -81,6 +81,14 @@ void allow_changes(const TargetMove& how, bool external_stay, Move& move) {
   move.may_jump = move.may_split && move.feed_mm_min > 0;
 }
 
+void count_zone(const TargetMove& how, int line, Zones& zones) {
+  if (!how.passes || !how.rounds) return;
+  ++zones.count;
+  if (how.zone_mm <= zones.largest_mm) return;
+  zones.largest_mm = how.zone_mm;
+  zones.largest_line = line;
+}
+
 }  // namespace
 
 Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
@@ -112,6 +120,8 @@ void end_at_target(RobotReading& r, const RobotTarget& target, const TargetMove&
   move.known_end = known_axes(r);
   if (move.orientation) move.orientation->stated_turns = how.stated_turns;
   allow_changes(how, place_external(target, r, move.line), move);
+  count_zone(how, move.line, r.program.zones);
+  r.began_in_zone = std::exchange(r.in_zone, how.passes && how.zone_mm > 0);
   if (all_known(move.known_end)) return r.last_reason.clear();
   note_uncorrected(
       r, {.line = move.line},

@@ -36,7 +36,9 @@ struct RobotReading {
   RobotState state{};
   CurrentOperation operation{};
   int open_bodies = 0;  ///< loops and conditions around the statement: it may run never or several times
-  std::string last_reason{};  ///< of the last uncorrected block
+  std::string last_reason{};   ///< of the last uncorrected block
+  bool in_zone = false;        ///< the zone at the last target has a length
+  bool began_in_zone = false;  ///< the same of the target before it
   bool ended = false;
 };
 
@@ -46,6 +48,8 @@ struct TargetMove {
   bool relative = false;         ///< the numbers of the position are differences from the last target
   StatedTurns stated_turns = StatedTurns::none;
   bool passes = false;  ///< the robot does not stop at the target: C_DIS, a zone, CNT
+  bool rounds = true;   ///< where it passes; false for APT, which leaves that to the post
+  double zone_mm = 0;   ///< length within which it rounds the path; 0: not known
 };
 
 /// Begins a move in the state before the statement of `line`.

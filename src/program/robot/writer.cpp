@@ -2,9 +2,10 @@
 
 #include <algorithm>
 #include <cassert>
-#include <limits>
+#include <span>
 
 #include "program/dialect.hpp"
+#include "program/robot/spacing.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
@@ -77,22 +78,30 @@ std::size_t count(const TargetNumbers& numbers, const Move& move, bool with_word
   return count;
 }
 
-/// The points of a split move in order, with the shorter distance (mm) of each to those beside it.
-std::vector<double> spacings_of(const Move& move, const MoveEdit& edit) {
-  std::vector<Vector3> points;
-  if (all_known(move.known_start)) points.push_back(move.start_mm);
-  const std::size_t first = points.size();
-  if (edit.jump) points.push_back(edit.jump->end_mm);
-  for (const Via& via : edit.inserted) points.push_back(via.end_mm);
-  points.push_back(edit.end_mm);
+/// The shorter distance (mm) of each inserted point to those beside it. `start`: where the move begins.
+std::vector<double> spacings_of(const std::optional<Vector3>& start, std::vector<Vector3> points) {
+  if (start) points.insert(points.begin(), *start);
   std::vector<double> spacings;
-  for (std::size_t i = first; i < points.size(); ++i) {
-    double spacing_mm = std::numeric_limits<double>::infinity();
-    if (i > 0) spacing_mm = (points[i] - points[i - 1]).norm();
-    if (i + 1 < points.size()) spacing_mm = std::min(spacing_mm, (points[i + 1] - points[i]).norm());
-    spacings.push_back(spacing_mm);
+  for (std::size_t i = start ? 1 : 0; i + 1 < points.size(); ++i) {
+    const auto behind = std::span(points).subspan(i + 1);
+    const auto before = std::span(points).first(i);
+    std::vector<Vector3> back(before.rbegin(), before.rend());
+    spacings.push_back(std::min(distance_to_next(points[i], back), distance_to_next(points[i], behind)));
   }
   return spacings;
+}
+
+/// The position in the text, if it is known on all axes.
+std::optional<Vector3> place_of(const TextPosition& position) {
+  if (!position[0] || !position[1] || !position[2]) return std::nullopt;
+  return Vector3(*position[0], *position[1], *position[2]);
+}
+
+/// Counts the target of `move` and the points inserted before it.
+void count_points(const Move& move, std::size_t inserted, std::size_t most, PointCount& points) {
+  ++points.before;
+  points.after += inserted + 1;
+  if (most > 0 && points.after > most && points.first_line_beyond == 0) points.first_line_beyond = move.line;
 }
 
 bool has_words(const Move& move) {
@@ -151,6 +160,12 @@ std::string RobotWriter::header_text(const std::string& line) const {
 void RobotWriter::shift_statement(const Program&, const Move&, const Vector3&,
                                   std::vector<TextChange>&) const {}
 
+void RobotWriter::limit_zone(const Program&, const Move&, double, std::vector<TextChange>&) const {}
+
+std::map<std::size_t, double> RobotWriter::zone_spacings(const Program&, const std::vector<MoveEdit>&) const {
+  return {};
+}
+
 Span RobotWriter::copied_part(const Program& program, const Move& move) const {
   RobotLine line;
   const std::string_view text = part(program.text, move.block);
@@ -165,10 +180,9 @@ void RobotWriter::insert_point(const Move& move, const Via& via, int motion, dou
                                std::string& text, Output& o) {
   const Step step = round_step(move, position_, via, motion, Place::inside, options_);
   if (equals_text_position(step)) return;
-  TargetNumbers numbers = copied_numbers(move, step);
-  numbers.spacing_mm = spacing_mm;
   std::vector<TextChange> changes;
-  change_target(o.program, move, numbers, changes);
+  change_target(o.program, move, copied_numbers(move, step), changes);
+  limit_zone(o.program, move, spacing_mm, changes);
   text += with_changes(o.program.text, copied_part(o.program, move), changes) + line_end_;
   ++o.out.inserted_blocks;
   position_ = step.after;
@@ -181,17 +195,16 @@ void RobotWriter::write_move(const MoveEdit& edit, Output& o) {
   position_ = known_text_position(move, position_);
   if (move.handling == Handling::held && !has_words(move))
     return shift_statement(o.program, move, edit.end_mm - move.end_mm, o.changes);
-  const std::vector<double> spacings = spacings_of(move, edit);
+  const std::vector<double> spacings =
+      spacings_of(place_of(position_), written_points(move, &edit, options_));
   auto spacing = spacings.begin();
   std::string before;
   if (edit.jump) insert_point(move, *edit.jump, 1, *spacing++, before, o);
   for (const Via& via : edit.inserted) insert_point(move, via, motion_of(move), *spacing++, before, o);
-  const bool is_split = !before.empty();
-  if (is_split) o.changes.push_back({{move.block.begin, move.block.begin}, std::move(before)});
+  if (!before.empty()) o.changes.push_back({{move.block.begin, move.block.begin}, std::move(before)});
   const Via end{edit.end_mm, edit.centre_mm, edit.orientation};
   const Step step = round_step(move, position_, end, motion_of(move), Place::end, options_);
-  TargetNumbers numbers = changed_numbers(move, step);
-  if (is_split) numbers.spacing_mm = spacings.back();
+  const TargetNumbers numbers = changed_numbers(move, step);
   change_target(o.program, move, numbers, o.changes);
   o.out.changed_words += count(numbers, move, true);
   o.out.inserted_words += count(numbers, move, false);
@@ -213,17 +226,27 @@ Rewritten RobotWriter::write(const Program& window, const std::vector<MoveEdit>&
   if (!begun_) add_header(o);
   begun_ = true;
   std::size_t next = 0;
+  const auto count = [&](std::size_t inserted) {
+    count_points(window.moves[next], inserted, options_.most_points, points_);
+  };
   const auto keep_until = [&](std::size_t end) {
-    for (; next < end; ++next) position_ = text_position_after_original(window.moves[next], position_);
+    for (; next < end; ++next) {
+      position_ = text_position_after_original(window.moves[next], position_);
+      count(0);
+    }
   };
   for (const MoveEdit& edit : edits) {
     keep_until(edit.move);
     const std::size_t inserted = o.out.inserted_blocks;
     write_move(edit, o);
     o.out.blocks_of_edit.push_back(o.out.inserted_blocks - inserted);
+    count(o.out.blocks_of_edit.back());
     next = edit.move + 1;
   }
   keep_until(window.moves.size());
+  o.out.points = points_;
+  for (const auto& [move, spacing_mm] : zone_spacings(window, edits))
+    limit_zone(window, window.moves[move], spacing_mm, o.changes);
   finish_changes(window, edits, o.changes);
   o.out.text = with_changes(window.text, {0, window.text.size()}, o.changes);
   return std::move(o.out);

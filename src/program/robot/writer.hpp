@@ -1,7 +1,7 @@
 #pragma once
 /// Writes corrected robot programs: numbers of targets in their places, and copies of a move's own statement
 /// for inserted points. A language derives from it.
-#include <limits>
+#include <map>
 #include <optional>
 #include <string>
 #include <vector>
@@ -26,7 +26,6 @@ struct TargetNumbers {
   OrientationNumbers turned{};  ///< all numbers of the written orientation, also those that stay
   bool is_copy = false;         ///< for a copy of the statement, else for the statement itself
   bool becomes_line = false;    ///< the statement of an arc becomes that of a line, without auxiliary point
-  std::optional<double> spacing_mm{};  ///< of a split move: the shorter distance to the points beside it
 };
 
 class RobotWriter : public ProgramWriter {
@@ -52,8 +51,18 @@ class RobotWriter : public ProgramWriter {
   virtual void shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
                                std::vector<TextChange>& changes) const;
 
+  /// Appends the change that makes the zone in the statement of `move` at most half of `spacing_mm`, the
+  /// distance to the nearest point beside its target. The default changes nothing.
+  virtual void limit_zone(const Program& program, const Move& move, double spacing_mm,
+                          std::vector<TextChange>& changes) const;
+
+  /// The moves with zones to limit, and their spacings. By default no moves: zones have no length in
+  /// statements.
+  virtual std::map<std::size_t, double> zone_spacings(const Program& program,
+                                                      const std::vector<MoveEdit>& edits) const;
+
   /// Adds or replaces changes that depend on several edits, when those of all edits are there: of a target
-  /// that several moves use, of zones beside inserted points. The default does nothing.
+  /// that several moves use. The default does nothing.
   virtual void finish_changes(const Program& program, const std::vector<MoveEdit>& edits,
                               std::vector<TextChange>& changes) const;
 
@@ -75,6 +84,7 @@ class RobotWriter : public ProgramWriter {
   std::string_view comment_mark_;
   std::string line_end_;
   TextPosition position_{};  ///< in the written text
+  PointCount points_{};
   bool begun_ = false;
 };
 

@@ -238,6 +238,14 @@ Json lines_json(const std::optional<LineLengths>& lines) {
           {"near_limit", lines->near}};
 }
 
+Json zones_json(const Zones& zones) {
+  if (zones.count == 0) return nullptr;
+  const bool any = zones.largest_mm > 0;
+  return {{"count", zones.count},
+          {"largest_mm", any ? number(zones.largest_mm, 6) : Json(nullptr)},
+          {"largest_line", any ? Json(zones.largest_line) : Json(nullptr)}};
+}
+
 Json control_json(const ControlFacts& control) {
   Json tolerances = Json::array();
   for (const PathTolerance& t : control.tolerances)
@@ -246,6 +254,7 @@ Json control_json(const ControlFacts& control) {
                           {"merge_mm", optional_number(t.merge_mm)}});
   return {{"short_blocks", short_blocks_json(control.short_blocks)},
           {"lines", lines_json(control.lines)},
+          {"zones", zones_json(control.zones)},
           {"path_tolerances", std::move(tolerances)},
           {"plunges", control.plunges},
           {"rapids", control.rapids}};

@@ -107,6 +107,7 @@ void RunTally::add_corrected(const Program& corrected_window) {
   if (!short_blocks_) short_blocks_.emplace().limit_ms = min_block_ms_;
   add_lines(*lines_, corrected_window.text, corrected_window.dialect);
   add_short_blocks(*short_blocks_, corrected_window);
+  zones_ = corrected_window.zones;
 }
 
 }  // namespace counterflex

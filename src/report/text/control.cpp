@@ -69,7 +69,8 @@ void add_short_blocks(ShortBlocks& blocks, const Program& window) {
 }
 
 ControlFacts control_facts(const Overview& program, const RunTally& tally) {
-  return {tally.short_blocks(), tally.lines(), program.path_tolerances, program.plunges, program.rapids};
+  return {tally.short_blocks(),    tally.lines(),   tally.zones().value_or(program.zones),
+          program.path_tolerances, program.plunges, program.rapids};
 }
 
 std::vector<Remark> control_warnings(const ControlFacts& control, const std::optional<Largest>& correction) {

@@ -147,12 +147,22 @@ std::string worst_text(const RunReport& report, const Ink& ink) {
   return text;
 }
 
+std::string zones_text(const RunReport& report) {
+  const std::string zones = zones_in_words(report.control.zones);
+  if (zones.empty()) return "";
+  return wrapped("  ",
+                 fmt::format("zones{} {}: the guarantee is for the lines between targets",
+                             report.text_after ? " of the corrected program" : "", zones),
+                 4);
+}
+
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
   if (report.failure && !report.text_after) return "";
   std::string text = line_break() + ink.bold("Program") + "\n";
   if (report.command == Command::predict)
-    return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move"));
+    return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move")) +
+           zones_text(report);
   const std::string others = blocks.others ? others_text(*blocks.others) : "";
   text += fmt::format("  {} of {} corrected{}, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
                       others.empty() ? "" : " individually", counted(blocks.inserted, "point"));
@@ -163,7 +173,7 @@ std::string program_text(const RunReport& report, const Ink& ink) {
   if (report.correction && report.correction->mm > 0)
     text += fmt::format("  largest correction {} mm, line {}\n", mm4(report.correction->mm),
                         report.correction->line);
-  return text;
+  return text + zones_text(report);
 }
 
 std::string line_prefix(int line) {

@@ -36,7 +36,7 @@ std::string long_rapid() {
       return fmt::format("[[{:.3f},{:.2f},{}],[{:.7f},0,0,{:.7f}],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]]",
                          x + ahead, x / 2, up, std::cos(angle), std::sin(angle));
     };
-    text += fmt::format("MoveL {},cut,z1,t\\WObj:=w; ! {}\n", target(0, 0), i);
+    text += fmt::format("MoveL {},cut,{},t\\WObj:=w; ! {}\n", target(0, 0), i % 60 == 0 ? "fine" : "z1", i);
     if (i % 50 == 0) text += fmt::format("MoveC {},{},cut,z1,t\\WObj:=w;\n", target(0.5, 0.5), target(1, 0));
     if (i % 900 == 0) text += "ENDPROC\nPROC next()\nTPWrite \"next\";\n";
   }

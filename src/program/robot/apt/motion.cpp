@@ -101,7 +101,7 @@ void read_apt_point(AptReading& r, const RobotLine& line, const AptStatement& st
     return add_unfollowed_move(r.robot, line, why);
   }
   Move move = begin_robot_move(r.robot, line, motion);
-  end_at_target(r.robot, *target, {.motion = motion, .passes = true}, move);
+  end_at_target(r.robot, *target, {.motion = motion, .passes = true, .rounds = false}, move);
   const bool behind_circle = r.circle.has_value();
   why = why_no_chord(r, move);
   r.begins_circle = false;

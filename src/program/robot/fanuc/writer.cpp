@@ -4,7 +4,6 @@
 
 #include <algorithm>
 
-#include "counterflex/files/input_error.hpp"
 #include "program/robot/fanuc/numbering.hpp"
 #include "program/robot/fanuc/read.hpp"
 #include "program/text/lex.hpp"
@@ -12,9 +11,6 @@
 
 namespace counterflex {
 namespace {
-
-/// Largest number of a position that all controls allow.
-constexpr long most_positions = 999;
 
 /// The motion statement of `move`.
 TpMotion motion_at(const Program& program, const Move& move) {
@@ -79,16 +75,13 @@ Span FanucWriter::copied_part(const Program&, const Move& move) const {
   return move.block;
 }
 
-long FanucWriter::number_of_new(const Program& program, const Move& move, std::string content) const {
+long FanucWriter::number_of_new(const Move& move, std::string content) const {
   const auto [found, is_new] = number_of_content_.try_emplace(std::move(content), 0);
   if (!is_new) return found->second;
   new_contents_.push_back(found->first);
   found->second = largest_ + static_cast<long>(new_contents_.size());
-  if (found->second > most_positions && largest_ <= most_positions)
-    throw InputError(ErrorKind::program_text, {program.file, move.line, 1},
-                     fmt::format("the corrected program needs the position P[{}] here, but a program has at "
-                                 "most {} positions; split the program, or allow a larger --tolerance",
-                                 found->second, most_positions));
+  const auto most = static_cast<long>(options().most_points);
+  if (most > 0 && found->second > most && line_beyond_ == 0) line_beyond_ = move.line;
   return found->second;
 }
 
@@ -108,8 +101,7 @@ void FanucWriter::change_target(const Program& program, const Move& move, const 
       if (is_in(change.span, position.span)) own.push_back(in_column(text, change));
     std::string content = with_changes(text, content_of(text, position), own);
     if (numbers.is_copy)
-      changes.push_back(
-          {operand.span, fmt::format("P[{}]", number_of_new(program, move, std::move(content)))});
+      changes.push_back({operand.span, fmt::format("P[{}]", number_of_new(move, std::move(content)))});
     else
       uses_[*operand.number].push_back({&move, operand.span, std::move(content)});
   }
@@ -131,7 +123,7 @@ void FanucWriter::place_position(const Program& program, long number,
   if (!stays) changes.push_back({span, uses.front().content});
   for (const Use& use : uses)
     if (use.content != kept)
-      changes.push_back({use.operand, fmt::format("P[{}]", number_of_new(program, *use.move, use.content))});
+      changes.push_back({use.operand, fmt::format("P[{}]", number_of_new(*use.move, use.content))});
 }
 
 void FanucWriter::finish_changes(const Program& program, const std::vector<MoveEdit>&,
@@ -155,6 +147,8 @@ Rewritten FanucWriter::write(const Program& window, const std::vector<MoveEdit>&
   const bool inserted = out.inserted_blocks > 0 || !options().header.empty();
   if (inserted && file_.numbered)
     out.text = with_numbered_lines(std::move(out.text), file_.line_count.has_value());
+  const std::size_t before = static_cast<std::size_t>(largest_);
+  out.points = {before, before + new_contents_.size(), line_beyond_};
   return out;
 }
 

@@ -23,7 +23,7 @@ class FanucWriter final : public RobotWriter {
                       std::vector<TextChange>& changes) const override;
 
   /// The number of a new position with that content.
-  long number_of_new(const Program& program, const Move& move, std::string content) const;
+  long number_of_new(const Move& move, std::string content) const;
   void place_position(const Program& program, long number, std::vector<TextChange>& changes) const;
 
   /// A motion that has a position as its target, with the content that the position must have for it.
@@ -40,6 +40,7 @@ class FanucWriter final : public RobotWriter {
   mutable std::map<long, std::vector<Use>> uses_;  ///< by number of the position
   mutable std::vector<std::string> new_contents_;  ///< in the order of their numbers
   mutable std::map<std::string, long> number_of_content_;
+  mutable int line_beyond_ = 0;  ///< of the first move that needs a number above WriteOptions::most_points
 };
 
 }  // namespace counterflex

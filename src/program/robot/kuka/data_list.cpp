@@ -43,7 +43,7 @@ const KrlNamed& element_of(const KrlReading& r, const KrlLoop& loop, long index)
 }
 
 /// The move of a loop to one element. In the order of the text it is at the statement of the loop.
-void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& element, bool passes) {
+void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& element, const TargetMove& how) {
   const std::string_view text = r.robot.program.text;
   const auto aggregate = target_of_element(text, element.value, loop.member);
   const auto target = aggregate ? krl_target(*aggregate) : std::nullopt;
@@ -52,7 +52,7 @@ void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& elemen
     refuse(r.robot.program.file, line, element.value.begin,
            fmt::format("'{}' is not a target of plain numbers: {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
                        part(text, element.value)));
-  add_target_move(r.robot, line, *target, {.passes = passes});
+  add_target_move(r.robot, line, *target, how);
   r.robot.program.moves.back().text_line = loop.motion.line;
 }
 
@@ -130,9 +130,9 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   r.behind_loop = loop->end;
   r.robot.program.counts.push_back(loop->last_number);
   if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
-  const bool passes = passes_target(part(text, loop->motion.code));
+  const TargetMove how = with_krl_zone(r, part(text, loop->motion.code), {});
   for (long index = loop->first; index <= loop->last; ++index)
-    add_element_move(r, *loop, element_of(r, *loop, index), passes);
+    add_element_move(r, *loop, element_of(r, *loop, index), how);
   return true;
 }
 

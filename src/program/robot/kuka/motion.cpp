@@ -54,9 +54,9 @@ bool has_word(const MotionStatement& statement, std::string_view word) {
   return std::find(statement.words.begin(), statement.words.end(), word) != statement.words.end();
 }
 
-bool passes(const MotionStatement& statement) {
-  return std::any_of(statement.words.begin(), statement.words.end(),
-                     [](const std::string& word) { return passes_target(word); });
+TargetMove with_zone(const KrlReading& r, const MotionStatement& statement, TargetMove how) {
+  for (const std::string& word : statement.words) how = with_krl_zone(r, word, how);
+  return how;
 }
 
 /// Whether a component is A1 to A6.
@@ -136,7 +136,9 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
   if (why.empty())
     return add_target_move(
         r.robot, line, *target,
-        {.motion = Motion::rapid, .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none});
+        with_zone(r, statement,
+                  {.motion = Motion::rapid,
+                   .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none}));
   add_joint_move(r.robot, line, std::move(why));
   if (aggregate && head == "PTP" && !in_body(r)) r.robot.state.external = external_of(*aggregate);
 }
@@ -166,7 +168,7 @@ void read_line(KrlReading& r, const RobotLine& line, std::string_view head,
     why = "LIN_REL turns the tool or moves along its axes";
   if (in_body(r)) why = in_a_body;
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
-  add_target_move(r.robot, line, *target, {.relative = relative, .passes = passes(statement)});
+  add_target_move(r.robot, line, *target, with_zone(r, statement, {.relative = relative}));
 }
 
 /// The angle of CA (deg); empty without one, NaN for an expression.
@@ -215,16 +217,20 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
       "a line";
   Move move = begin_robot_move(r.robot, line, Motion::feed);
   if (!all_known(move.known_start)) return add_unfollowed_move(r.robot, line, std::string(unknown_circle));
-  end_at_target(r.robot, *targets[1], {.passes = passes(statement)}, move);
+  end_at_target(r.robot, *targets[1], with_zone(r, statement, {}), move);
   if (!go_through(*targets[0], move)) return add_unfollowed_move(r.robot, line, std::string(unknown_circle));
   r.robot.program.moves.push_back(std::move(move));
 }
 
 }  // namespace
 
-bool passes_target(std::string_view words) {
+TargetMove with_krl_zone(const KrlReading& r, std::string_view words, TargetMove how) {
   const std::string upper_case = krl_word(words);
-  return upper_case.ends_with("C_DIS") || upper_case.ends_with("C_VEL") || upper_case.ends_with("C_ORI");
+  const bool by_length = upper_case.ends_with("C_DIS");
+  if (by_length) how.zone_mm = r.zone_mm;
+  how.passes = how.passes || by_length || upper_case.ends_with("C_VEL") || upper_case.ends_with("C_ORI") ||
+               (how.motion == Motion::rapid && upper_case.ends_with("C_PTP"));
+  return how;
 }
 
 std::optional<RobotTarget> krl_target(const KrlAggregate& aggregate) {

@@ -75,6 +75,17 @@ void assign_speeds(KrlReading& r, Span value) {
   if (speed != nullptr || !aggregate) set_krl_speed(r, speed && speed->number ? speed->number->value : 0);
 }
 
+/// $APO.CDIS = 5, $APO = {CDIS 5,CORI 2}
+void assign_zone(KrlReading& r, Span value) {
+  const std::string_view text = r.robot.program.text;
+  const auto aggregate = aggregate_at(text, value.begin, value.end);
+  const KrlComponent* distance = aggregate ? find_component(*aggregate, "CDIS") : nullptr;
+  if (aggregate && distance == nullptr) return;
+  const auto number = distance ? distance->number : number_at(text, value.begin);
+  const bool is_plain = number && number->span.end == (distance ? distance->value.end : value.end);
+  r.zone_mm = is_plain && !in_body(r) ? number->value : 0;
+}
+
 /// $ORI_TYPE: only #VAR turns the tool from the orientation of one target to that of the next.
 void assign_orientation_type(KrlReading& r, std::string_view type) {
   r.why_not_followed =
@@ -88,6 +99,7 @@ void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& 
   if (variable == "$BASE") return assign_krl_base(r, line, assignment.value);
   if (variable == "$TOOL") return assign_krl_tool(r, line, assignment.value);
   if (variable == "$VEL.CP") return assign_speed(r, assignment.value);
+  if (variable == "$APO.CDIS" || variable == "$APO") return assign_zone(r, assignment.value);
   if (variable == "$VEL") return assign_speeds(r, assignment.value);
   if (variable == "$CIRC_TYPE") {
     r.turns_with_path = value != "#BASE" || in_body(r);
@@ -123,6 +135,7 @@ void begin_or_end(KrlReading& r) {
 
 /// A call may run any statement.
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
+  r.zone_mm = 0;
   if (is_one_of(krl_word(name), motionless_calls)) return;
   if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
   forget_position(r.robot);
@@ -178,7 +191,10 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
   if (begins_routine(text, line)) return begin_or_end(r);
   if (head == "END" || head == "ENDFCT" || head == "ENDDEF") return end_routine(r);
   if (head == "FOR" && read_data_loop(r, line)) return;
-  if (head == "BAS") return read_krl_bas(r, line, name.end);
+  if (head == "BAS") {
+    r.zone_mm = 0;  // it may set $APO
+    return read_krl_bas(r, line, name.end);
+  }
   if (is_one_of(head, body_begins)) ++r.robot.open_bodies;
   if (is_one_of(head, body_ends)) r.robot.open_bodies = std::max(r.robot.open_bodies - 1, 0);
   if (is_one_of(head, body_begins) || is_one_of(head, body_ends)) return;

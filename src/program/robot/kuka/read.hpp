@@ -24,6 +24,7 @@ struct KrlReading {
   std::string tool{};                                    ///< right side of the last $TOOL
   std::string frame_data{};                              ///< right side of the last FDAT_ACT
   bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
+  double zone_mm = 0;                                    ///< $APO.CDIS, of C_DIS; 0: not known
   std::string why_not_followed{};  ///< why linear moves are not followed; empty if they are
   const bool data_lists = false;   ///< they follow the program
   const KrlArrays& arrays;         ///< of the data lists
@@ -36,8 +37,9 @@ struct KrlReading {
 /// Reads the statement of `line`. Throws `InputError` with line and column.
 void read_krl_statement(KrlReading& reading, const RobotLine& line);
 
-/// Whether a motion statement with these words does not stop at its end: C_DIS, C_VEL, C_ORI.
-bool passes_target(std::string_view words);
+/// Adds to `how` whether a motion statement with these last words passes its target: C_DIS, C_VEL, C_ORI, and
+/// C_PTP of a rapid. Only the zone of C_DIS has a length.
+TargetMove with_krl_zone(const KrlReading& reading, std::string_view words, TargetMove how);
 
 /// LIN, PTP, CIRC and their relative forms. `head`: the keyword in upper case. `at`: the byte behind it.
 void read_krl_motion(KrlReading& reading, const RobotLine& line, std::string_view head, std::size_t at);

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 
 #include "program/text/lex.hpp"
 
@@ -205,10 +206,15 @@ RapidZone rapid_zone(const RapidPlace& place, Span span) {
   return {true, *number == 0 ? smallest_zone_mm : *number};
 }
 
-std::string_view rapid_zone_within(double radius_mm) {
-  std::size_t i = zones.size() - 1;
-  while (i > 0 && zones[i] > radius_mm) --i;
-  return zone_names[i];
+std::string rapid_zone_within(double radius_mm) {
+  if (radius_mm >= smallest_zone_mm) {
+    std::size_t i = zones.size() - 1;
+    while (i > 0 && zones[i] > radius_mm) --i;
+    return std::string(zone_names[i]);
+  }
+  constexpr double step_mm = 1e-4;
+  const double size = std::max(std::floor(radius_mm / step_mm + 1e-6), 1.0) * step_mm;
+  return fmt::format("[FALSE,{0:.6g},{0:.6g},{0:.6g},{1:.6g},{0:.6g},{1:.6g}]", size, size / 10);
 }
 
 RapidFrame rapid_tool(const RapidPlace& place, Span span) {

@@ -33,8 +33,9 @@ struct RapidZone {
 };
 RapidZone rapid_zone(const RapidPlace& place, Span span);
 
-/// The largest predefined zone with at most that radius; "z0" if there is no such zone.
-std::string_view rapid_zone_within(double radius_mm);
+/// The largest predefined zone with at most that radius. Below z0: a list of zonedata in the proportions of
+/// z0.
+std::string rapid_zone_within(double radius_mm);
 
 /// A tool or a work object.
 struct RapidFrame {

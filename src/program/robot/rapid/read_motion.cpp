@@ -178,14 +178,18 @@ void enter(RapidReading& r, const RapidStatement& statement, const MoveArguments
   r.robot.state.feed_mm_min = feed_of(r, statement, motion);
 }
 
+bool passes(const MoveArguments& motion) {
+  return motion.zone.passes && !motion.text.has("INPOS");
+}
+
 void add_line(RapidReading& r, const RobotLine& line, const MoveArguments& motion, Motion kind) {
   Move move = begin_robot_move(r.robot, line, kind);
-  const bool passes = motion.zone.passes && !motion.text.has("INPOS");
   const bool states_turns = kind == Motion::rapid && !r.any_joint_configuration;
   end_at_target(r.robot, motion.targets[0].target,
                 {.motion = kind,
                  .stated_turns = states_turns ? StatedTurns::quadrants : StatedTurns::none,
-                 .passes = passes},
+                 .passes = passes(motion),
+                 .zone_mm = motion.zone.radius_mm},
                 move);
   keep_whole(r, motion, move);
   r.robot.program.moves.push_back(std::move(move));
@@ -193,7 +197,6 @@ void add_line(RapidReading& r, const RobotLine& line, const MoveArguments& motio
 
 void add_circle(RapidReading& r, const RobotLine& line, const MoveArguments& motion) {
   Move move = begin_robot_move(r.robot, line, Motion::feed);
-  const bool passes = motion.zone.passes && !motion.text.has("INPOS");
   const bool displaced = std::ranges::any_of(
       motion.targets, [](const RapidOperand& target) { return target.form == RapidOperand::Form::derived; });
   const bool moved_by_machine = !move.moved_only_by_program[0];
@@ -203,7 +206,8 @@ void add_circle(RapidReading& r, const RobotLine& line, const MoveArguments& mot
   };
   if (displaced) return not_followed("a point of MoveC is displaced by Offs or RelTool");
   if (!all_known(move.known_start)) return not_followed("the start of MoveC is not known");
-  end_at_target(r.robot, motion.targets[1].target, {.passes = passes}, move);
+  end_at_target(r.robot, motion.targets[1].target,
+                {.passes = passes(motion), .zone_mm = motion.zone.radius_mm}, move);
   if (!go_through(motion.targets[0].target, move))
     return not_followed("the points of MoveC and its start lie on a line");
   if (!turns_about_fixed_axis(r, motion.targets[0].target, move))

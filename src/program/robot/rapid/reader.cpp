@@ -12,4 +12,10 @@ RapidReader::RapidReader(const std::string& file, const ReadOptions& options, co
     : RobotReader(file, options, dialect, std::move(outline), rapid_comment, OrientationForm::quaternion),
       rapid_{reading(), this->outline().named_targets} {}
 
+/// Points inserted into `last` limit the zone at its start, which is written in the same window.
+bool RapidReader::may_end_before(const Move& last, bool anywhere) const {
+  const bool limits_zone = rapid_.robot.began_in_zone && (last.may_split || last.may_jump);
+  return !limits_zone && RobotReader::may_end_before(last, anywhere);
+}
+
 }  // namespace counterflex

@@ -10,6 +10,7 @@ class RapidReader final : public RobotReader {
   RapidReader(const std::string& file, const ReadOptions& options, const Dialect& dialect, Outline outline);
 
  private:
+  bool may_end_before(const Move& last, bool anywhere) const override;
   void read_statement(const RobotLine& line) override { read_rapid_line(rapid_, line); }
 
   RapidReading rapid_;

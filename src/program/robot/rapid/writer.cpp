@@ -52,17 +52,6 @@ void change_to_line(Span keyword, const std::vector<RapidOperand>& targets,
   changes.push_back({{targets[0].span.begin, targets[1].span.begin}, ""});
 }
 
-/// A zone must not reach beyond the middle between two targets.
-void shrink_zone(const RapidPlace& place, Span zone, const TargetNumbers& numbers,
-                 std::vector<TextChange>& changes) {
-  if (!numbers.spacing_mm) return;
-  const double most_mm = *numbers.spacing_mm / 2;
-  const RapidZone written = rapid_zone(place, zone);
-  const std::string_view smaller = rapid_zone_within(most_mm);
-  if (written.passes && written.radius_mm > most_mm && rapid_word(part(place.text, zone)) != "Z0")
-    changes.push_back({zone, std::string(smaller)});
-}
-
 }  // namespace
 
 RapidWriter::RapidWriter(const Program& window, const WriteOptions& options)
@@ -104,7 +93,17 @@ void RapidWriter::change_target(const Program& program, const Move& move, const 
   }
   const Span keyword = rapid_token_at(text, statement.span.begin, statement.span.end).span;
   if (numbers.becomes_line) change_to_line(keyword, targets, changes);
-  shrink_zone(place, motion.zone, numbers, changes);
+}
+
+void RapidWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
+                             std::vector<TextChange>& changes) const {
+  const RapidStatement statement = rapid_statement_at(program.text, move.block.begin, move.block.end);
+  const RapidPlace place{program.text, module_, statement.span.begin};
+  const RapidMotion motion = rapid_motion(program.text, statement);
+  if (!motion.complete) return;
+  const RapidZone zone = rapid_zone(place, motion.zone);
+  if (zone.passes && zone.radius_mm > spacing_mm / 2)
+    changes.push_back({motion.zone, rapid_zone_within(spacing_mm / 2)});
 }
 
 /// A declaration is changed if all uses of its name are targets that get the same numbers, to the last digit.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <utility>
 
-#include "program/gcode/remarks.hpp"
 #include "program/robot/ur/read.hpp"
 #include "program/text/lex.hpp"
 
@@ -104,7 +103,7 @@ Span value_of(const UrReading& r, const RobotLine& line, const UrCall& call, std
                      part(text, call.name)));
 }
 
-void read_joint_move(UrReading& r, const RobotLine& line, const UrTarget& target) {
+void read_joint_move(UrReading& r, const RobotLine& line, const UrTarget& target, double zone_mm) {
   if (target.kind == TargetKind::joints)
     return add_joint_move(r.robot, line, "movej moves to joint positions");
   if (target.kind == TargetKind::computed)
@@ -112,7 +111,8 @@ void read_joint_move(UrReading& r, const RobotLine& line, const UrTarget& target
   if (in_body(r)) return add_joint_move(r.robot, line, std::string(in_ur_body));
   enter_robot_frame(r.robot, target.frame);
   r.robot.state.feed_mm_min = 0;
-  add_target_move(r.robot, line, target.numbers, {.motion = Motion::rapid});
+  add_target_move(r.robot, line, target.numbers,
+                  {.motion = Motion::rapid, .passes = zone_mm > 0, .zone_mm = zone_mm});
 }
 
 /// Properties of a move in tool space besides its target.
@@ -127,15 +127,10 @@ Move move_to(UrReading& r, const RobotLine& line, const UrTarget& target, const 
   const bool timed = !manner.time || *manner.time != 0;
   r.robot.state.feed_mm_min = timed ? 0 : manner.speed.value_or(0) * ur_length_mm * seconds_of_minute;
   Move move = begin_robot_move(r.robot, line, Motion::feed);
-  end_at_target(r.robot, target.numbers, {.passes = manner.zone.value_or(0) > 0}, move);
+  const double zone_mm = ur_length_mm * manner.zone.value_or(0);
+  end_at_target(r.robot, target.numbers, {.passes = zone_mm > 0, .zone_mm = zone_mm}, move);
   if (timed && manner.time && *manner.time > 0 && all_known(move.known_start))
     move.feed_mm_min = (move.end_mm - move.start_mm).norm() / *manner.time * seconds_of_minute;
-  if (manner.zone.value_or(0) > 0)
-    add_remark(
-        r.robot.program, line.line,
-        fmt::format("the control rounds the path within {:.6g} mm of targets (r): the correction is for the "
-                    "lines between targets",
-                    *manner.zone * ur_length_mm));
   if (timed || manner.unknown_zone_before) move.may_split = move.may_jump = false;
   return move;
 }
@@ -188,7 +183,7 @@ void read_ur_motion(UrReading& r, const RobotLine& line, const UrCall& call) {
   r.unknown_zone = !manner.zone;
   if (head == "movec") return read_circle(r, line, call, manner);
   const UrTarget target = target_at(r, value_of(r, line, call, "pose"));
-  if (head == "movej") return read_joint_move(r, line, target);
+  if (head == "movej") return read_joint_move(r, line, target, ur_length_mm * manner.zone.value_or(0));
   read_line(r, line, head, target, manner);
 }
 

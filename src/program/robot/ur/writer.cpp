@@ -4,6 +4,7 @@
 #include <cmath>
 
 #include "program/dialect.hpp"
+#include "program/robot/spacing.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
@@ -71,30 +72,6 @@ void change_to_line(std::string_view text, const UrCall& call, std::vector<TextC
   if (mode != nullptr) changes.push_back({{(mode - 1)->span.end, mode->span.end}, ""});
 }
 
-const MoveEdit* edit_of(const std::vector<MoveEdit>& edits, std::size_t move) {
-  const auto at = std::lower_bound(edits.begin(), edits.end(), move,
-                                   [](const MoveEdit& edit, std::size_t m) { return edit.move < m; });
-  return at != edits.end() && at->move == move ? &*at : nullptr;
-}
-
-/// The points of `edit` in order: the inserted ones and the end.
-std::vector<Vector3> points_of(const MoveEdit& edit) {
-  std::vector<Vector3> points;
-  if (edit.jump) points.push_back(edit.jump->end_mm);
-  for (const Via& via : edit.inserted) points.push_back(via.end_mm);
-  points.push_back(edit.end_mm);
-  return points;
-}
-
-/// Distance from `from` to the next point of the list that does not round to it; infinite without one.
-template <typename Points>
-double distance_to_next(const Vector3& from, const Points& points) {
-  constexpr double equal_mm = 0.002;
-  for (const Vector3& point : points)
-    if (const double distance_mm = (point - from).norm(); distance_mm > equal_mm) return distance_mm;
-  return std::numeric_limits<double>::infinity();
-}
-
 }  // namespace
 
 UrWriter::UrWriter(const Program& window, const WriteOptions& options)
@@ -126,13 +103,11 @@ void UrWriter::change_target(const Program& program, const Move& move, const Tar
     change_to_line(text, *call, changes);
   else if (move.arc)
     put(true, point_changes(text, move, numbers));
-  if (numbers.is_copy) limit_zone(text, *call, numbers.spacing_mm.value_or(HUGE_VAL), changes);
 }
 
 void UrWriter::finish_changes(const Program& program, const std::vector<MoveEdit>& edits,
                               std::vector<TextChange>& changes) const {
   change_named_targets(program, edits, changes);
-  shrink_zones(program, edits, changes);
 }
 
 void UrWriter::change_named_targets(const Program& program, const std::vector<MoveEdit>& edits,
@@ -180,57 +155,48 @@ double UrWriter::zone_mm(std::string_view text, const UrCall& call) const {
   return argument ? ur_length_mm * ur_constant(text, names_, argument->value).value_or(0) : 0;
 }
 
-void UrWriter::limit_zone(std::string_view text, const UrCall& call, double limit_mm,
+void UrWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
                           std::vector<TextChange>& changes) const {
-  constexpr int decimals = resolution_decimals(LengthUnit::metres);
-  const UrArgument* argument = ur_argument(text, call, "r");
-  if (argument == nullptr || zone_mm(text, call) <= limit_mm / 2) return;
+  const auto call = ur_call_in_line(program.text, move.block.begin);
+  const UrArgument* argument = call ? ur_argument(program.text, *call, "r") : nullptr;
+  if (argument == nullptr || zone_mm(program.text, *call) <= spacing_mm / 2) return;
   // Rounded down, and less than half: the zones at both ends do not overlap.
   constexpr double share = 0.49;
-  const double steps = std::floor(share * limit_mm / ur_length_mm * power_of_ten(decimals));
-  const double radius = steps / power_of_ten(decimals);
-  const bool plain = ur_number(text, argument->value).has_value();
-  changes.push_back({argument->value, plain ? number_text(text, argument->value, radius, decimals)
+  const double most = share * spacing_mm / ur_length_mm;
+  int decimals = resolution_decimals(LengthUnit::metres);
+  if (most * power_of_ten(decimals) < 1) decimals += 2;  // a radius of zero would stop the robot
+  const double radius = std::floor(most * power_of_ten(decimals)) / power_of_ten(decimals);
+  const bool plain = ur_number(program.text, argument->value).has_value();
+  changes.push_back({argument->value, plain ? number_text(program.text, argument->value, radius, decimals)
                                             : inserted_number(radius, decimals)});
 }
 
 /// A move is skipped by the control if the zones at its ends overlap. Beside an inserted point a zone is at
 /// most half the distance to it. Zones that touch in the original still do not overlap.
-void UrWriter::shrink_zones(const Program& program, const std::vector<MoveEdit>& edits,
-                            std::vector<TextChange>& changes) const {
-  const std::string_view text = program.text;
-  std::map<std::size_t, double> limits_mm;  // of moves
+std::map<std::size_t, double> UrWriter::zone_spacings(const Program& program,
+                                                      const std::vector<MoveEdit>& edits) const {
+  std::map<std::size_t, double> spacings_mm = spacing_at_targets(program, edits, options());
   const auto limit = [&](std::size_t move, double distance_mm) {
-    const auto [at, is_new] = limits_mm.try_emplace(move, distance_mm);
+    const auto [at, is_new] = spacings_mm.try_emplace(move, distance_mm);
     if (!is_new) at->second = std::min(at->second, distance_mm);
   };
   const auto zone_at_end = [&](const Move& move) {
-    const auto call = ur_call_in_line(text, move.block.begin);
-    return call ? zone_mm(text, *call) : 0;
+    const auto call = ur_call_in_line(program.text, move.block.begin);
+    return call ? zone_mm(program.text, *call) : 0;
   };
   for (std::size_t m = 1; m < program.moves.size(); ++m) {
     const Move &move = program.moves[m], &before = program.moves[m - 1];
     if (!all_known(move.known_start) || !all_known(move.known_end) || !all_known(before.known_end)) continue;
-    const MoveEdit *edit = edit_of(edits, m), *edit_before = edit_of(edits, m - 1);
-    if (edit == nullptr && edit_before == nullptr) continue;
-    const Vector3 from = edit_before ? edit_before->end_mm : before.end_mm;
-    const std::vector<Vector3> points = edit ? points_of(*edit) : std::vector<Vector3>{move.end_mm};
-    const double first_mm = distance_to_next(from, points);
-    if (points.size() > 1) {
-      std::vector<Vector3> back(points.rbegin() + 1, points.rend());
-      back.push_back(from);
-      limit(m - 1, first_mm);
-      limit(m, distance_to_next(points.back(), back));
-      continue;
-    }
+    const std::vector<Vector3> points = written_points(move, edit_of(edits, m), options());
+    if (points.size() > 1) continue;
+    const Vector3 start = written_points(before, edit_of(edits, m - 1), options()).back();
+    const double length_mm = (points.front() - start).norm();
     const double both_mm = zone_at_end(before) + zone_at_end(move);
-    if (both_mm <= first_mm || both_mm > (move.end_mm - move.start_mm).norm()) continue;
-    limit(m - 1, first_mm);
-    limit(m, first_mm);
+    if (both_mm <= length_mm || both_mm > (move.end_mm - move.start_mm).norm()) continue;
+    limit(m - 1, length_mm);
+    limit(m, length_mm);
   }
-  for (const auto& [move, limit_mm] : limits_mm)
-    if (const auto call = ur_call_in_line(text, program.moves[move].block.begin))
-      limit_zone(text, *call, limit_mm, changes);
+  return spacings_mm;
 }
 
 }  // namespace counterflex

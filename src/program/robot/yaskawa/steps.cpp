@@ -12,6 +12,10 @@
 namespace counterflex {
 namespace {
 
+double corner_mm(const JbiMotion& motion) {
+  return motion.corner_radius ? motion.corner_radius->value : 0;
+}
+
 constexpr std::string_view in_a_body = "a loop or a condition may run the step never or several times";
 constexpr std::string_view shifted = "SFTON shifts the positions at run time";
 constexpr std::string_view unknown_circle =
@@ -62,9 +66,11 @@ void read_joint_step(JbiReading& r, const RobotLine& line, const JbiMotion& moti
   if (!why.empty()) return add_joint_move(r.robot, line, std::move(why));
   enter(r, motion, target);
   mark_followed(r, motion, target);
-  add_target_move(
-      r.robot, line, target.numbers,
-      {.motion = Motion::rapid, .stated_turns = StatedTurns::half_turns, .passes = motion.passes});
+  add_target_move(r.robot, line, target.numbers,
+                  {.motion = Motion::rapid,
+                   .stated_turns = StatedTurns::half_turns,
+                   .passes = motion.passes,
+                   .zone_mm = corner_mm(motion)});
 }
 
 /// `is_start`: of a circle, whose first MOVC is a line to its start.
@@ -73,7 +79,7 @@ void read_line_step(JbiReading& r, const RobotLine& line, const JbiMotion& motio
   enter(r, motion, target);
   mark_followed(r, motion, target);
   Move move = begin_robot_move(r.robot, line, Motion::feed);
-  end_at_target(r.robot, target.numbers, {.passes = motion.passes}, move);
+  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone_mm = corner_mm(motion)}, move);
   if (is_start || motion.stays_whole) move.may_split = move.may_jump = false;
   r.robot.program.moves.push_back(std::move(move));
 }
@@ -123,7 +129,7 @@ void read_circle_end(JbiReading& r, const RobotLine& line, const JbiMotion& moti
   enter(r, motion, target);
   Move move = begin_robot_move(r.robot, line, Motion::feed);
   if (!all_known(move.known_start)) return not_followed("the start of the MOVC circle is not known");
-  end_at_target(r.robot, target.numbers, {.passes = motion.passes}, move);
+  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone_mm = corner_mm(motion)}, move);
   if (!go_through(point->target, move))
     return not_followed("the three points of the MOVC circle lie on a line");
   if (turns_the_tool(move, point->target, target.numbers))

@@ -32,17 +32,6 @@ void turn_auxiliary_point(std::string_view text, const Move& move, const TargetN
     }
 }
 
-/// A corner radius must not reach beyond the middle between two targets.
-void shrink_corner(std::string_view text, const JbiMotion& motion, const TargetNumbers& numbers,
-                   std::vector<TextChange>& changes) {
-  constexpr double least_mm = 0.1;  // of CR
-  if (!numbers.spacing_mm || !motion.corner_radius) return;
-  const double most_mm = std::max(*numbers.spacing_mm / 2, least_mm);
-  const RobotNumber& radius = *motion.corner_radius;
-  if (radius.value > most_mm)
-    changes.push_back({radius.span, number_text(text, radius.span, std::floor(most_mm * 10) / 10, 1)});
-}
-
 }  // namespace
 
 YaskawaWriter::YaskawaWriter(const Program& window, const WriteOptions& options)
@@ -94,7 +83,6 @@ void YaskawaWriter::change_target(const Program& program, const Move& move, cons
   const RobotLine line = jbi_line_at(text, position->line_begin);
   for (TextChange& change : all) (is_in_line(change.span, line) ? own : changes).push_back(std::move(change));
   if (move.arc && move.arc->through && !numbers.is_copy) turn_auxiliary_point(text, move, numbers, changes);
-  shrink_corner(text, motion, numbers, changes);
   if (!numbers.is_copy && own.empty()) return;
   if (!numbers.is_copy && has_one_use(job_, *position)) {
     changes.insert(changes.end(), own.begin(), own.end());
@@ -104,6 +92,18 @@ void YaskawaWriter::change_target(const Program& program, const Move& move, cons
   std::vector<TextChange> none;
   for (const auto& name : {motion.base, motion.station})
     if (name) add_position(program, *name, numbers.is_copy, none, changes);
+}
+
+void YaskawaWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
+                               std::vector<TextChange>& changes) const {
+  constexpr double least_mm = 0.1;  // of CR
+  const JbiMotion motion = jbi_motion(program.text, jbi_line_at(program.text, move.block.begin).code);
+  if (!motion.corner_radius) return;
+  const RobotNumber& radius = *motion.corner_radius;
+  const double most_mm = std::max(spacing_mm / 2, least_mm);
+  if (radius.value > most_mm)
+    changes.push_back(
+        {radius.span, number_text(program.text, radius.span, std::floor(most_mm * 10) / 10, 1)});
 }
 
 }  // namespace counterflex

@@ -1,6 +1,7 @@
 // Programs of FANUC robots: writing of corrected positions.
 #include <doctest/doctest.h>
 
+#include "counterflex/program/size_limit.hpp"
 #include "program/robot/fanuc/fanuc.hpp"
 
 using namespace counterflex;
@@ -164,20 +165,25 @@ TEST_CASE("the header is remarks of at most 32 characters, and is recognised") {
 }
 
 TEST_CASE("a program with more than 999 positions after insertion is refused; one that has more is not") {
-  const auto inserted = [](int last) {
+  const auto inserted = [](int last, std::optional<std::size_t> most = {}) {
     const Program program =
         read_tp_statements("L P[1] 9mm/sec CNT5 ;\nL P[2] 9mm/sec CNT5 ;\n",
                            tp_position(1, {0, 0, 0, 0, 0, 0}) + tp_position(2, {9, 0, 0, 0, 0, 0}) +
                                tp_position(last, {9, 0, 0, 0, 0, 0}));
     std::vector<MoveEdit> edits = robot_edits(program);
     edits[1].inserted = {{{5, 0, 0.5}, {}, OrientationNumbers{}}};
-    return diagnostic_of([&] { rewrite(program, edits, {}); });
+    const WriteOptions options{.most_points = most.value_or(size_limit("fanuc_tp")->most)};
+    const Rewritten out = rewrite(program, edits, options);
+    return diagnostic_of([&] { refuse_too_many_points("job.ls", "fanuc_tp", out.points, most); });
   };
   CHECK(inserted(998) == "none");
-  CHECK(inserted(999) ==
-        "job.ls:7:1: error: the corrected program needs the position P[1000] here, but a program has at most "
-        "999 "
-        "positions; split the program, or allow a larger --tolerance");
+  CHECK(
+      inserted(999) ==
+      "job.ls:7:1: error: the corrected program has 1000 positions, but a FANUC TP program has at most 999, "
+      "reached here; allow a larger --tolerance-mm, divide it with --max-points 999, or give --max-points "
+      "the "
+      "limit of a control that allows more");
+  CHECK(inserted(999, 1500) == "none");
   CHECK(inserted(1200) == "none");
 }
 

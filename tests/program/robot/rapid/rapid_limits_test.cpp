@@ -148,7 +148,8 @@ TEST_CASE("a module with inline targets alone is read in windows, others as a wh
 TEST_CASE("windows of an ABB program have the moves of the whole") {
   std::string statements = "MoveJ " + target_at("0,0,0") + ",v1000,fine,t\\WObj:=w;\n";
   for (int i = 1; i < 40; ++i)
-    statements += "MoveL " + target_at(std::to_string(i) + ",0,0") + ",s,z1,t\\WObj:=w;\n";
+    statements += "MoveL " + target_at(std::to_string(i) + ",0,0") + (i % 9 == 0 ? ",s,fine" : ",s,z1") +
+                  ",t\\WObj:=w;\n";
   const std::string text = module_of(
       "VAR speeddata s:=[20,2,3,4];\nPERS wobjdata "
       "w:=[FALSE,TRUE,\"\",[[9,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n",

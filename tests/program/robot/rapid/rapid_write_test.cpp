@@ -73,6 +73,10 @@ TEST_CASE("changed numbers keep their style, at least three digits of a length a
             "[850,9E9,9E+09,9E9,9E9,9E9]],v100,fine,t;\n"));
 }
 
+// Zones below z0.
+const std::string tiny = "[FALSE,0.005,0.005,0.005,0.0005,0.005,0.0005]",
+                  quarter = "[FALSE,0.25,0.25,0.25,0.025,0.25,0.025]";
+
 TEST_CASE("inserted points are copies of the motion with smaller zones, without its comment") {
   const Program program =
       read_rapid(with_targets(module_of("CONST zonedata own:=[FALSE,12,18,18,1.8,18,1.8];\n",
@@ -91,15 +95,25 @@ TEST_CASE("inserted points are copies of the motion with smaller zones, without 
   CHECK(out.inserted_blocks == 6);
   CHECK(out.blocks_of_edit == std::vector<std::size_t>{0, 2, 2, 1, 1});
   CHECK(written_statements(program, edits) ==
-        with_targets("MoveJ <0,0,0>,v1000,z100,t;\n"
+        with_targets("MoveJ <0,0,0>,v1000,z5,t;\n"
                      "  MoveL <10,0.02,0>, v50\\V:=12, z5, t\\WObj:=wobj0;\n"
                      "  MoveL <34,0.01,0>, v50\\V:=12, z1, t\\WObj:=wobj0;\n"
-                     "  MoveL <40,0,0>, v50\\V:=12, z1, t\\WObj:=wobj0; ! cut\n"
-                     "MoveL <40,0.01,0>,v50,z0,t;\n"
+                     "  MoveL <40,0,0>, v50\\V:=12, " +
+                     tiny +
+                     ", t\\WObj:=wobj0; ! cut\n"
+                     "MoveL <40,0.01,0>,v50," +
+                     tiny +
+                     ",t;\n"
                      "MoveL <50,0,0.01>,v50,z5,t;\n"
-                     "MoveL <60,0,0>,v50,z5,t;\n"
-                     "MoveL <60.5,0,0.01>,v50,z0,t;\n"
-                     "MoveL <61,0,0>,v50,z0,t;\n"
+                     "MoveL <60,0,0>,v50," +
+                     quarter +
+                     ",t;\n"
+                     "MoveL <60.5,0,0.01>,v50," +
+                     quarter +
+                     ",t;\n"
+                     "MoveL <61,0,0>,v50," +
+                     quarter +
+                     ",t;\n"
                      "MoveL [[70,0,0.01],[0.9999999,0.0005,0,0]" +
                      rest_of_target +
                      ",v50,z1,t;\n"
@@ -188,10 +202,10 @@ TEST_CASE("copies of a motion to a named target have the numbers in its place") 
                     "MoveJ <0,20,30>,v50,z1,t;\nMoveL <5,20.01,30>,v50,z1,t;\nMoveL p1,v50,z1,t;\n")));
   // A point at the original place does not move with the declaration.
   edit.inserted = {{{10, 20, 30}, {}, edit.orientation}};
-  CHECK(
-      rewrite(program, {edit}, {}).text ==
-      with_targets(module_of("CONST robtarget p1:=<10,20,30.01>;\n",
-                             "MoveJ <0,20,30>,v50,z1,t;\nMoveL <10,20,30>,v50,z0,t;\nMoveL p1,v50,z0,t;\n")));
+  CHECK(rewrite(program, {edit}, {}).text ==
+        with_targets(module_of("CONST robtarget p1:=<10,20,30.01>;\n",
+                               "MoveJ <0,20,30>,v50,z1,t;\nMoveL <10,20,30>,v50," + tiny +
+                                   ",t;\nMoveL p1,v50," + tiny + ",t;\n")));
   // Nor does one that differs from the start in its orientation only.
   const Program turning = read_rapid(with_targets(
       module_of("CONST robtarget p1:=<10,20,30>;\n",
@@ -200,8 +214,8 @@ TEST_CASE("copies of a motion to a named target have the numbers in its place") 
   turn.inserted = {{{10, 20, 30}, {}, turn.orientation}};
   turn.end_mm.z() = 30.01;
   CHECK(written_statements(turning, {turn}) ==
-        with_targets("MoveJ " + target_at("10,20,30", "0,1,0,0") +
-                     ",v50,z1,t;\nMoveL <10,20,30>,v50,z0,t;\nMoveL p1,v50,z0,t;\n"));
+        with_targets("MoveJ " + target_at("10,20,30", "0,1,0,0") + ",v50," + tiny +
+                     ",t;\nMoveL <10,20,30>,v50," + tiny + ",t;\nMoveL p1,v50," + tiny + ",t;\n"));
 }
 
 TEST_CASE("a corrected target of Offs or RelTool is written with all its numbers") {

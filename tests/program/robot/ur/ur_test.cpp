@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/program/overview.hpp"
 #include "program/robot/corpus.hpp"
 #include "program/robot/edits.hpp"
 
@@ -77,11 +78,8 @@ TEST_CASE("the targets of movej, movel and movep are read in mm, with rotation v
   CHECK(across.orientation->start == OrientationNumbers{-1.2092, -1.2092, -1.2092});
   CHECK(across.orientation->end == OrientationNumbers{0, 3.1415927, 0});
   CHECK(program.frames[across.frame] == ProgramFrame{});
-  REQUIRE(program.remarks.size() == 2);
-  CHECK(program.remarks[0].line == 10);
-  CHECK(program.remarks[0].what ==
-        "the control rounds the path within 2 mm of targets (r): the correction is for the lines between "
-        "targets");
+  CHECK(zones_in_words(program.zones) == "round 2 targets, largest 2 mm, line 10");
+  CHECK(program.remarks.empty());
 }
 
 TEST_CASE("a rotation vector of URScript is the axis and angle of the tool's orientation") {
