@@ -1,7 +1,9 @@
 #pragma once
-/// Names of enumerations in reports and on the command line.
+/// Names of enumerations, and units of joints, in reports and on the command line.
 #include <string_view>
 
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
@@ -19,6 +21,15 @@ inline const char* name_of(Command command) {
       return "verify";
   }
   return "";
+}
+
+/// In which the values of a joint are shown.
+struct JointUnit {
+  const char* name;
+  double si;
+};
+inline JointUnit unit_of(JointKind kind) {
+  return kind == JointKind::prismatic ? JointUnit{"mm", mm} : JointUnit{"deg", deg};
 }
 
 }  // namespace counterflex

@@ -60,6 +60,7 @@ void write_data(const std::vector<PageRun>& runs, const std::string& conclusion,
     for (const auto& [key, json] : {std::pair{"report", &run.report},
                                     {"curves", &run.curves},
                                     {"loads", &run.loads},
+                                    {"machine", &run.machine},
                                     {"source", &run.source}}) {
       take(fmt::format(",\n\"{}\": ", key));
       write_json(*json, take);

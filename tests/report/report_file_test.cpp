@@ -27,7 +27,7 @@ std::string page_of(const std::string& runs) {
 }
 
 std::string page_run(const std::string& report) {
-  return R"({"report": )" + report + R"(, "curves": {"waypoints": 3}, "loads": null})";
+  return R"({"report": )" + report + R"(, "curves": {"waypoints": 3}, "loads": null, "machine": {"axes": []}})";
 }
 
 /// Data as in pages.
@@ -49,6 +49,7 @@ TEST_CASE("a report comes with the curves of the page beside it, if that shows t
   const ReportFile file = read_report_file(json, WithCurves::yes);
   CHECK(file.remark.empty());
   CHECK(file.curves == R"({"waypoints":3})");
+  CHECK(file.machine == R"({"axes":[]})");
   CHECK(file.loads.empty());
   CHECK(file.report == small_report);
   CHECK(file.sha256 == sha256(small_report));

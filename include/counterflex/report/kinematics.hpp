@@ -12,12 +12,19 @@
 namespace counterflex {
 
 struct KinematicPlace {
-  Status status = Status::not_converged;  ///< what follows is meaningful if `converged` or `outside_travel`
-  std::string why;                        ///< in words where `status` is not `converged`
+  Status status = Status::not_converged;
+  std::string why;  ///< in words where `status` is not `converged`
   Pose X_MT;
   Eigen::VectorXd shown;  ///< values of the actuators as the control shows them (m, rad)
   std::optional<std::array<ArmMargin, 3>> margins;  ///< of a six-axis arm
+
+  /// Whether the machine can be put there, perhaps outside its travel. Else only `why` has a meaning.
+  bool is_known() const { return status == Status::converged || status == Status::outside_travel; }
 };
+
+/// The place of a nominal configuration. It gives rotary actuators but for full turns: their values are those
+/// nearest to `near`, the values of all actuators.
+KinematicPlace place_of(const Model& model, const Configuration& nominal, const Eigen::VectorXd& near);
 
 /// The place of shown actuator values, on the branch of home. `shown` has a value for each actuator.
 KinematicPlace place_at_values(const Model& model, const Eigen::VectorXd& shown);

@@ -13,11 +13,12 @@ namespace counterflex {
 
 /// A run as the page has it. Its members but the name are JSON documents; "null": no document.
 struct PageRun {
-  std::string name;             ///< for people, where there are two
-  std::string report;           ///< "counterflex-report 1", as `to_json` writes it
-  std::string curves = "null";  ///< as `curves_json` writes them
-  std::string loads = "null";   ///< as `loads_json` writes them
-  std::string source = "null";  ///< as `source_json` writes it
+  std::string name;              ///< for people, where there are two
+  std::string report;            ///< "counterflex-report 1", as `to_json` writes it
+  std::string curves = "null";   ///< as `curves_json` writes them
+  std::string loads = "null";    ///< as `loads_json` writes them
+  std::string machine = "null";  ///< as `machine_json` writes it
+  std::string source = "null";   ///< as `source_json` writes it
 };
 
 /// The texts that the page shows beside the path: {"text": the original program, or null if it has more than
@@ -40,8 +41,8 @@ std::string curves_json(const PathCurves& curves);
 /// loads nothing: what it runs is in it, and its security policy allows nothing else. The data of all runs
 /// are one JSON document, "counterflex-page 1", in the element `counterflex-data`:
 ///
-///     {"schema", "runs": [{"name", "report", "curves", "loads", "source"}], "conclusion": what to take home,
-///     in words}
+///     {"schema", "runs": [{"name", "report", "curves", "loads", "machine", "source"}], "conclusion": what to
+///     take home, in words}
 ///
 /// without the last key where `conclusion` is empty.
 void write_page(const std::string& title, const std::vector<PageRun>& runs,

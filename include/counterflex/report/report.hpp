@@ -294,14 +294,15 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
 
 /// A run's report, as text, and what its page shows besides.
 struct ReportFile {
-  std::string name;    ///< of the run, for people: the file's stem
-  std::string path;    ///< as it was given
-  std::string sha256;  ///< of that file
-  std::string report;  ///< "counterflex-report 1", JSON
-  std::string curves;  ///< JSON, as the page's data has it; empty: none
-  std::string loads;   ///< likewise
-  std::string source;  ///< likewise
-  std::string remark;  ///< why there are no curves though they were asked for; empty: nothing to remark
+  std::string name;     ///< of the run, for people: the file's stem
+  std::string path;     ///< as it was given
+  std::string sha256;   ///< of that file
+  std::string report;   ///< "counterflex-report 1", JSON
+  std::string curves;   ///< JSON, as the page's data has it; empty: none
+  std::string loads;    ///< likewise
+  std::string machine;  ///< likewise
+  std::string source;   ///< likewise
+  std::string remark;   ///< why there are no curves though they were asked for; empty: nothing to remark
 };
 
 enum class WithCurves { no, yes };

@@ -4,6 +4,7 @@
 #include <optional>
 #include <string>
 
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
@@ -13,6 +14,10 @@ struct ArmMargin {
   double angle = 0;
   const char* what = "";  ///< "wrist: axes A4 and A6 are in line"
 };
+
+/// A run whose program turns the tool is refused where a margin is smaller (rad): a corrected target might be
+/// reached in another configuration.
+inline constexpr double least_arm_margin = 1 * deg;
 
 /// Three margins: the wrist (axes 4 and 6 in line), the elbow (the wrist centre in line with axes 2 and
 /// 3, the arm stretched or folded) and the shoulder (the wrist centre on axis 1). None for a machine that is

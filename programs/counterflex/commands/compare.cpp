@@ -29,6 +29,7 @@ PageRun page_run(const ReportFile& file) {
   run.report = file.report;
   if (!file.curves.empty()) run.curves = file.curves;
   if (!file.loads.empty()) run.loads = file.loads;
+  if (!file.machine.empty()) run.machine = file.machine;
   if (!file.source.empty()) run.source = file.source;
   return run;
 }

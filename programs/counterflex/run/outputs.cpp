@@ -307,7 +307,7 @@ void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
 }
 
 void RunFiles::add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves,
-                          FileReader& program) {
+                          const std::string& machine, FileReader& program) {
   if (json_) json_->write(report_json);
   if (plot_) plot_->write(to_svg(curves, report));
   if (!page_) return;
@@ -315,6 +315,7 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
   runs[0].report = report_json;
   runs[0].curves = curves_json(curves);
   runs[0].loads = loads_json(report.loads);
+  runs[0].machine = machine;
   runs[0].source = source_json(program, report);
   write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
 }

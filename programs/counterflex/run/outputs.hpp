@@ -105,9 +105,12 @@ class RunFiles {
   void write_held();
   void write_parts(const std::vector<ProgramPart>& parts, const std::vector<std::string>& paths);
 
-  /// Writes report and plot, if requested, when the run has ended. `program`: the original one.
+  bool with_page() const { return page_.has_value(); }
+
+  /// Writes report and plot, if requested, when the run has ended. `machine`: for the page, as `machine_json`
+  /// writes it. `program`: the original one.
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves,
-                  FileReader& program);
+                  const std::string& machine, FileReader& program);
 
   /// Publishes all files together, with the corrected program if `with_program`.
   void publish(bool with_program);

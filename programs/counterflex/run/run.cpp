@@ -12,6 +12,7 @@
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/program/size_limit.hpp"
 #include "counterflex/report/formats.hpp"
+#include "counterflex/report/machine_along.hpp"
 #include "process/exit_status.hpp"
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"
@@ -349,7 +350,9 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   if (options.report || options.json) add_texts(report, run.file.bytes);
   report.exit_status = exit_number(report.error_kind);
   std::string json = to_json(report);
-  if (tally.curves()) files.add_report(report, json, *tally.curves(), run.file.bytes);
+  const std::string machine =
+      files.with_page() ? machine_json(machine_along(on.machine, on.model, places)) : "null";
+  if (tally.curves()) files.add_report(report, json, *tally.curves(), machine, run.file.bytes);
   run.file.bytes.refuse_change();  // the file was read more than once
   files.publish(!report.error_kind);
   return {std::move(report), std::move(json)};

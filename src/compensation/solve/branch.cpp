@@ -13,8 +13,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double least_arm_margin = 1 * deg;
-
 // An arm that is so near to another configuration that a corrected target might be reached in it.
 std::optional<Failure> configuration_failure(const Model& model, const Configuration& nominal, int line) {
   const auto margin = arm_margin(model, nominal);

@@ -15,7 +15,7 @@ Json actuators(const Eigen::VectorXd& rho, const AnalysisReport& report) {
   const Eigen::VectorXd shown = shown_values(report.shown, rho);
   Json list = Json::array();
   for (Eigen::Index k = 0; k < shown.size(); ++k)
-    list.push_back(number(shown[k] / (travel[k].kind == JointKind::prismatic ? mm : deg), analysis_digits));
+    list.push_back(number(shown[k] / unit_of(travel[k].kind).si, analysis_digits));
   return list;
 }
 

@@ -9,42 +9,23 @@
 #include "counterflex/geometry/turn.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "report/analysis/analysis_parts.hpp"
+#include "report/names.hpp"
 
 namespace counterflex {
 namespace {
-
-bool is_known(const KinematicPlace& place) {
-  return place.status == Status::converged || place.status == Status::outside_travel;
-}
-
-double unit_of(const Travel& travel) {
-  return travel.kind == JointKind::prismatic ? mm : deg;
-}
 
 double margin_of(const Travel& travel, double shown) {
   return std::min(shown - travel.min, travel.max - shown);
 }
 
-/// `up_to_turns`: rotary values are known but for full turns; those nearest to home are shown.
-KinematicPlace place_of(const Model& model, const NominalResult& nominal, bool up_to_turns) {
+/// `near`: values of the actuators.
+KinematicPlace place_of_result(const Model& model, const NominalResult& nominal, const Eigen::VectorXd& near) {
+  if (nominal.status == Status::converged) return place_of(model, nominal.configuration, near);
   KinematicPlace place;
   place.status = nominal.status;
-  if (nominal.status != Status::converged) {
-    place.why = nominal.status == Status::singular
-                    ? "the perfect machine is singular here or on the way from home"
-                    : "the perfect machine cannot reach the pose from home";
-    return place;
-  }
-  const Mechanism& mechanism = model.mechanism;
-  Eigen::VectorXd rho = actuator_values(mechanism, nominal.configuration);
-  if (up_to_turns) rho += full_turns(mechanism, rho, actuator_values(mechanism, model.home));
-  place.X_MT = tip(mechanism, nominal.configuration);
-  place.shown = shown_values(mechanism.shown, rho);
-  place.margins = arm_margins(model, nominal.configuration);
-  if (within_travel(mechanism, rho)) return place;
-  place.status = Status::outside_travel;
-  if (const auto axis = tightest_axis(mechanism, rho))
-    place.why = outside_travel_words(mechanism.travel[axis->actuator], axis->value);
+  place.why = nominal.status == Status::singular
+                  ? "the perfect machine is singular here or on the way from home"
+                  : "the perfect machine cannot reach the pose from home";
   return place;
 }
 
@@ -91,12 +72,11 @@ std::string list_text(const std::vector<double>& values, int decimals) {
 }
 
 std::string actuator_text(const Travel& travel, double shown) {
-  const double unit = unit_of(travel);
-  const char* name = travel.kind == JointKind::prismatic ? "mm" : "deg";
-  const std::string value = fmt::format("{:>11} {}", format_fixed(shown / unit, 4), name);
+  const JointUnit unit = unit_of(travel.kind);
+  const std::string value = fmt::format("{:>11} {}", format_fixed(shown / unit.si, 4), unit.name);
   const double margin = margin_of(travel, shown);
   if (!std::isfinite(margin)) return value;
-  return fmt::format("{:<15} margin {:>9} {}, travel {}", value, format_fixed(margin / unit, 1), name,
+  return fmt::format("{:<15} margin {:>9} {}, travel {}", value, format_fixed(margin / unit.si, 1), unit.name,
                      travel_range(travel));
 }
 
@@ -105,7 +85,7 @@ std::string place_text(const KinematicPlace& place, const KinematicsReport& repo
   std::string text;
   if (place.status != Status::converged)
     text += row("status", fmt::format("{}: {}", to_string(place.status), place.why));
-  if (!is_known(place)) return text;
+  if (!place.is_known()) return text;
   const Vector3 p = place.X_MT.p / mm;
   text += row("tip x y z", list_text({p.x(), p.y(), p.z()}, 4) + " mm");
   for (const ControlForm& control : control_forms)
@@ -127,11 +107,12 @@ Json actuators_json(const KinematicPlace& place, const std::vector<Travel>& trav
   Json list = Json::array();
   for (std::size_t i = 0; i < travel.size(); ++i) {
     const double shown = place.shown[static_cast<Eigen::Index>(i)], margin = margin_of(travel[i], shown);
-    list.push_back({{"name", travel[i].name},
-                    {"unit", travel[i].kind == JointKind::prismatic ? "mm" : "deg"},
-                    {"value", number(shown / unit_of(travel[i]), analysis_digits)},
-                    {"margin", std::isfinite(margin) ? number(margin / unit_of(travel[i]), analysis_digits)
-                                                     : Json(nullptr)}});
+    const JointUnit unit = unit_of(travel[i].kind);
+    list.push_back(
+        {{"name", travel[i].name},
+         {"unit", unit.name},
+         {"value", number(shown / unit.si, analysis_digits)},
+         {"margin", std::isfinite(margin) ? number(margin / unit.si, analysis_digits) : Json(nullptr)}});
   }
   return list;
 }
@@ -139,7 +120,7 @@ Json actuators_json(const KinematicPlace& place, const std::vector<Travel>& trav
 Json place_json(const KinematicPlace& place, const KinematicsReport& report) {
   Json json = {{"status", std::string(to_string(place.status))},
                {"why", place.why.empty() ? Json(nullptr) : Json(place.why)}};
-  if (!is_known(place)) return json;
+  if (!place.is_known()) return json;
   json["tip_mm"] = numbers(Vector3(place.X_MT.p / mm), analysis_digits);
   for (const ControlForm& control : control_forms) {
     const std::vector<double> values = numbers_in(control, written_orientation(place, report));
@@ -157,13 +138,30 @@ Json place_json(const KinematicPlace& place, const KinematicsReport& report) {
 
 }  // namespace
 
+KinematicPlace place_of(const Model& model, const Configuration& nominal, const Eigen::VectorXd& near) {
+  const Mechanism& mechanism = model.mechanism;
+  Eigen::VectorXd rho = actuator_values(mechanism, nominal);
+  rho += full_turns(mechanism, rho, near);
+  KinematicPlace place;
+  place.status = Status::converged;
+  place.X_MT = tip(mechanism, nominal);
+  place.shown = shown_values(mechanism.shown, rho);
+  place.margins = arm_margins(model, nominal);
+  if (within_travel(mechanism, rho)) return place;
+  place.status = Status::outside_travel;
+  if (const auto axis = tightest_axis(mechanism, rho))
+    place.why = outside_travel_words(mechanism.travel[axis->actuator], axis->value);
+  return place;
+}
+
 KinematicPlace place_at_values(const Model& model, const Eigen::VectorXd& shown) {
-  return place_of(model, nominal_forward(model, model.home, joint_values(model.mechanism.shown, shown)),
-                  false);
+  const Eigen::VectorXd rho = joint_values(model.mechanism.shown, shown);
+  return place_of_result(model, nominal_forward(model, model.home, rho), rho);
 }
 
 KinematicPlace place_at_tip(const Model& model, const Pose& X_MT) {
-  return place_of(model, follow(model, model.home, X_MT), true);
+  return place_of_result(model, follow(model, model.home, X_MT),
+                         actuator_values(model.mechanism, model.home));
 }
 
 std::string to_text(const KinematicsReport& report) {

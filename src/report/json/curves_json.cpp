@@ -1,20 +1,12 @@
 #include <algorithm>
-#include <bit>
 #include <cmath>
 
-#include "counterflex/files/files.hpp"
 #include "counterflex/report/page.hpp"
+#include "report/json/encoded.hpp"
 #include "report/json/json_numbers.hpp"
 
 namespace counterflex {
 namespace {
-
-static_assert(std::endian::native == std::endian::little, "arrays are written as they are in memory");
-
-template <typename T>
-std::string encoded(const std::vector<T>& values) {
-  return base64({reinterpret_cast<const char*>(values.data()), values.size() * sizeof(T)});
-}
 
 /// One value for each stretch.
 template <typename Value>

@@ -65,6 +65,7 @@ std::string text_of_part(const Json& run, const char* part) {
 void take_curves(const Json& run, ReportFile& file) {
   file.curves = text_of_part(run, "curves");
   file.loads = text_of_part(run, "loads");
+  file.machine = text_of_part(run, "machine");
   file.source = text_of_part(run, "source");
 }
 

@@ -37,6 +37,7 @@
       fill(body(id), content);
     }
     fill(document.getElementById('load-tables'), counterflex.loads.render(context));
+    fill(document.getElementById('axis-tables'), counterflex.axes.render(context));
     renderPlace(context);
   }
 
@@ -106,6 +107,14 @@
     return true;
   }
 
+  /** The section of the axes. Its plots, which it returns, are not printed. */
+  function renderAxes(context, group) {
+    const made = counterflex.axes.plots(context, group);
+    fill(body('axes'), made && made.content, el('div', {id: 'axis-tables'}));
+    document.getElementById('axes').hidden = made === null;
+    return made ? made.plots : [];
+  }
+
   function renderPlots(context) {
     const {curves, loads, plotGroup} = counterflex;
     const group = context.group = plotGroup.create(context);
@@ -118,7 +127,7 @@
     body('loads').append(tables);
     if (!drawn && !loads.exist(context)) hide('loads');
     for (const plot of context.plots.slice(0, 2)) plot.ensure();
-    counterflex.lazily(context.plots.slice(2));
+    counterflex.lazily([...context.plots.slice(2), ...renderAxes(context, group)]);
   }
 
   function renderScene(context) {

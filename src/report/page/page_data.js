@@ -39,6 +39,24 @@ const counterflex = {};
     };
   }
 
+  /** A node of the machine's lines: its one place, or its places. */
+  const decodeNode = (node) => (Array.isArray(node) ? node : typed('F32', node));
+
+  /** The machine along the path with typed arrays under the names of the data; null without places. */
+  function decodeMachine(m) {
+    if (!m || m.s_mm === '') return null;
+    const withValues = (one) => ({...one, values: typed('F32', one.values)});
+    return {
+      ...m,
+      s_mm: typed('F64', m.s_mm),
+      line: typed('I32', m.line),
+      axes: m.axes.map(withValues),
+      margins: m.margins.map(withValues),
+      conditioning: m.conditioning ? typed('F32', m.conditioning) : null,
+      skeleton: m.skeleton && {...m.skeleton, lines: m.skeleton.lines.map((line) => line.map(decodeNode))},
+    };
+  }
+
   /** {lines: of the original program, [] if its text is unknown; output: the path of the corrected program, or ''}. */
   function decodeSource(source) {
     const {text, output} = source || {};
@@ -54,11 +72,12 @@ const counterflex = {};
       report: run.report,
       curves: decodeCurves(run.curves),
       loads: run.loads || null,
+      machine: decodeMachine(run.machine),
       source: decodeSource(run.source),
     };
   }
 
-  /** The runs of a page's data: {letter, name, report, curves | null, loads | null, source}. Throws on another schema. */
+  /** The runs of a page's data: {letter, name, report, curves | null, loads | null, machine | null, source}. Throws on another schema. */
   function decode(json) {
     if (json.schema !== 'counterflex-page 1') throw new Error(`the data is of the schema ${json.schema}`);
     return json.runs.map((run, index) => decodeRun(run, index, json.runs.length));

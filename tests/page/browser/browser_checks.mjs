@@ -6,6 +6,7 @@ import './number_checks.mjs';
 import './curve_checks.mjs';
 import './moving_checks.mjs';
 import './load_checks.mjs';
+import './machine_checks.mjs';
 import './comparison_checks.mjs';
 import './look_checks.mjs';
 import './verdict_checks.mjs';

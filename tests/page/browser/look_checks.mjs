@@ -39,8 +39,9 @@ test('a printed page is light, complete and without buttons', () => visit('groov
   assert.deepEqual(await page.$$eval('button, input, select', (nodes) => nodes.filter((n) => n.checkVisibility()).map((n) => n.textContent)), []);
   for (const [plot, colour] of [['before', '--before'], ['after', '--after'], ['sources', '--geometry'], ['force', '--x']])
     assert.ok(await pixels(page, `.plot.${plot} .paper-copy`, colour) > 300, plot);
-  const widths = await page.$$eval('.plot', (plots) => plots.map((plot) => plot.offsetWidth));
+  const widths = await page.$$eval('.plot', (plots) => plots.filter((plot) => plot.checkVisibility()).map((plot) => plot.offsetWidth));
   assert.ok(widths.every((width) => width <= 700), widths.join());
+  assert.equal(await page.locator('#axes').isVisible(), false);
   const pdf = await page.pdf({format: 'A4'});
   assert.ok(pages_of(pdf) > 1 && pages_of(pdf) <= 4, `${pages_of(pdf)} pages`);
   const pictures = images_of(pdf).filter(({width}) => width >= 1900);

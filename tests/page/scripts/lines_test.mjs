@@ -40,7 +40,7 @@ const run = {curves: curves_of([10.12345674, 20, 30], [5, 6, 7]),
   loads: {s_mm: [10.12346, 20, 25], line: [5, 6, 7], chains: [{name: 'x', moment_max_Nm: [1, null, 4]}]}};
 
 test('a place of the loads is of its own line', () => {
-  const points = loads.pointsOf(run);
+  const points = series.along(run, run.loads);
   assert.deepEqual(plain(points.map(({line, stretch}) => [line, stretch])), [[5, 0], [6, 1], [7, 2]]);
   const {places} = series.tabulate([{run: 0, points, values: [1, 2, 3]}], 30, 1);
   assert.deepEqual(plain(places.map(({line}) => line)), [null, 5, 6, 7, null]);

@@ -77,13 +77,6 @@
 
   const render = (context) => el('div', {class: 'runs'}, context.runs.map((_, i) => tableOf(context, i)));
 
-  /** Points of a run's loads. Their stretches are those of the curves, so that a click selects one. */
-  function pointsOf(run) {
-    const {s_mm: all, line: lines} = run.loads;
-    const stretch = (s, line) => (run.curves ? counterflex.lines.stretchNear(run.curves, line, s) : -1);
-    return all.map((s, i) => ({s, stretch: stretch(s, lines[i]), line: lines[i]}));
-  }
-
   function seriesOf(context, points, name, scale) {
     return context.runs.flatMap((run, r) => (!run.loads ? [] : run.loads.chains.map((chain, c) => ({
       label: `${chain.name}${run.letter ? ` ${run.letter}` : ''}`, colour: colours[c % colours.length],
@@ -131,7 +124,7 @@
     const choices = present(context);
     if (choices.length === 0) return null;
     const state = {name: choices[0][0]};
-    const points = context.runs.map((run) => (run.loads ? pointsOf(run) : []));
+    const points = context.runs.map((run) => (run.loads ? tables.along(run, run.loads) : []));
     const plot = counterflex.plot.create(context, group, () => describe(context, group, points, state), 'loads');
     const choice = radios('Show', 'load', choices, state.name, (name) => {
       state.name = name;
@@ -140,5 +133,5 @@
     return {plots: [plot], content: [el('div', {class: 'controls'}, choice), plot.node]};
   }
 
-  counterflex.loads = {render, exist, plots, pointsOf, placeOfLargest};
+  counterflex.loads = {render, exist, plots, placeOfLargest};
 })();

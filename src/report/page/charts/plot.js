@@ -45,11 +45,11 @@
     return rows.map((row) => row.map((v, c) => (c === 0 ? v : size(v))));
   }
 
-  /** Levels not far from the curves: the range of the plot includes them. */
+  /** The range of the plot includes levels that are not far from the curves, and those that are `held`. */
   function heldLevels({rows, levels}) {
     if (!levels || levels.length === 0) return [];
     const largest = largestOf(rows);
-    return levels.map((level) => level.value).filter((value) => Math.abs(value) < 5 * largest);
+    return levels.filter(({value, held}) => held || Math.abs(value) < 5 * largest).map(({value}) => value);
   }
 
   /** Rows with one more column for each of these levels: an invisible series. */
@@ -212,7 +212,7 @@
 
   /**
    * A plot over the path, built at the first call of `ensure`. `describe` returns its current content: {title, axis: name
-   * and unit of the values, series: [{label, colour, dash, width}], rows, places, levels: [{value, label}], log,
+   * and unit of the values, series: [{label, colour, dash, width, text(value)}], rows, places, levels: [{value, label, held}], log,
    * text(value), placeText(place), lineOf(place), select(place)}.
    */
   function create(context, group, describe, className) {

@@ -31,7 +31,10 @@
       hover(s, from) {
         for (const plot of group.plots) if (plot !== from) plot.showValues(s);
         const run = runs[context.selection.run].curves ? context.selection.run : runs.findIndex((each) => each.curves);
-        if (context.program && run >= 0) context.program.point(run, s === null ? -1 : counterflex.data.stretchAt(runs[run].curves, s));
+        if (run < 0) return;
+        const stretch = s === null ? -1 : counterflex.data.stretchAt(runs[run].curves, s);
+        if (context.program) context.program.point(run, stretch);
+        if (context.scene) context.scene.point(run, stretch);
       },
       /** Draws marks again, once for all calls before the next frame. */
       redraw() {

@@ -20,7 +20,7 @@
     const row = counterflex.series.largestOfTwo(content.rows[k], content.places[k].twin);
     const isShown = (series, v) => v !== null && !Number.isNaN(v) && !plot.hidden.has(series.label);
     const values = content.series.map((series, i) => [series, row[i + 1]]).filter(([series, v]) => isShown(series, v))
-        .map(([series, v]) => `${series.label} ${content.text(v)}`);
+        .map(([series, v]) => `${series.label} ${(series.text || content.text)(v)}`);
     const place = `${tick(Number(row[0].toFixed(3)))} ${context.units.lengthLabel}`;
     const upTo = content.places[k].twin ? 'up to ' : '';
     fill(plot.legend.readout, `${place}, ${content.placeText(content.places[k])}: ${upTo}${values.join(', ')}`);

@@ -40,6 +40,12 @@
     return values;
   }
 
+  /** Points of a run's values at the places {s_mm, line}. Their stretches are those of the curves, so that a click selects one. */
+  function along({curves}, {s_mm: all, line: lines}) {
+    const stretch = (s, line) => (curves ? counterflex.lines.stretchNear(curves, line, s) : -1);
+    return Array.from(all, (s, i) => ({s, stretch: stretch(s, lines[i]), line: lines[i]}));
+  }
+
   /**
    * Rows for dygraphs of several series. `series`: {run, points, values}, where series of one run share `points`.
    * Returns {rows: [[s, value of each series]], places: [{run, stretch, line: of the point, if it has one, twin: the
@@ -73,5 +79,5 @@
   /** A row with the larger absolute values of the two rows of a merged stretch; the row itself for a single one. */
   const largestOfTwo = (row, twin) => (!twin ? row : row.map((v, c) => (c > 0 && Math.abs(twin[c]) > Math.abs(v) ? twin[c] : v)));
 
-  counterflex.series = {largestOfTwo, places, valuesAt, tabulate};
+  counterflex.series = {largestOfTwo, places, along, valuesAt, tabulate};
 })();

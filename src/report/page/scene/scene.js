@@ -6,6 +6,8 @@
 (() => {
   const {el} = counterflex.dom;
   const picture = counterflex.scenePicture;
+  const {skeleton, pathModel} = counterflex;
+  const largestMachine = 2;  // times the path: a larger machine is shown only after a click
   const margin = [30, 84];  // pixels beside a fitted path, and above and below for scales and axes
   /** Sizes of one printed picture, of two and of more in a row. Texts are smaller in a picture of more pixels. */
   const paperSizes = {1: {width: 800, height: 400, ratio: 3}, 2: {width: 520, height: 330, ratio: 4},
@@ -31,12 +33,15 @@
     constructor(container, {runs, units, selection, hovered}) {
       Object.assign(this, {container, runs, units, selection, hovered, hover: -1, frame: 0, points: null, ownFactor: false});
       this.facts = picture.survey(runs);
+      this.machines = runs.map((run) => (skeleton.usable(run) ? {linesAt: skeleton.follow(run), box: this.relative(skeleton.boxOf(run.machine))} : null));
       const run = picture.usable(runs[selection.run]) ? selection.run : runs.findIndex(picture.usable);
       const kind = ['after', 'before', 'wanted'].find((each) => picture.knows(runs[run], each));
       this.camera = {...counterflex.camera.views.isometric, centre: [0, 0, 0], span: 1, fitted: true};
       this.controls = counterflex.sceneControls.create(this.choices(), this.acts());
       this.parts = furnish(container, this.controls.element);
       this.view = counterflex.ribbonView.create(() => this.fallBack()) || counterflex.flatView.create();
+      const machine = this.machines[run];
+      this.withMachine = Boolean(machine) && pathModel.sizeOf(machine.box) <= largestMachine * this.facts.size;
       this.present(picture.describe(this.facts, runs, run, kind, this.facts.usual(kind)));
       this.listen();
       this.draw();
@@ -46,7 +51,37 @@
       const anywhere = (kind) => this.runs.some((run) => picture.knows(run, kind));
       return {kinds: counterflex.pathModel.kinds.map((value) => ({value, enabled: anywhere(value)})),
         runs: this.runs.map((run) => ({text: picture.nameOf(run), enabled: picture.usable(run)})),
-        steps: this.facts.steps};
+        steps: this.facts.steps, machine: this.machines.some(Boolean)};
+    }
+
+    /** A box relative to the origin of the pictures. */
+    relative({low, high}) {
+      const moved = (place) => place.map((v, i) => v - this.facts.origin[i]);
+      return {low: moved(low), high: moved(high)};
+    }
+
+    /** The machine of the run shown, or null if it is not to be shown. */
+    machine() {
+      return this.withMachine ? this.machines[this.shown.run] : null;
+    }
+
+    /** Its lines at the place under the mouse, else at the selected one: for `picture.paint`. */
+    machineLines() {
+      const machine = this.machine();
+      const stretch = this.has(this.hover) ? this.hover : Math.max(0, this.chosen());
+      return machine ? {lines: machine.linesAt(stretch), origin: this.facts.origin} : undefined;
+    }
+
+    /** Shows or hides the machine, with a camera that fits it or the path. */
+    showMachine(on) {
+      this.withMachine = on;
+      this.move({...this.camera, fitted: true});
+    }
+
+    /** The box of what is shown. */
+    box() {
+      const machine = this.machine();
+      return machine ? pathModel.bounds([this.shown.box, machine.box].map(({low, high}) => ({place_mm: [...low, ...high]}))) : this.shown.box;
     }
 
     /** Actions of controls, mouse and keys. */
@@ -55,6 +90,7 @@
         show: (kind) => this.show(kind, this.shown.run),
         run: (run) => this.show(this.shown.kind, run),
         exaggerate: (factor) => this.exaggerate(factor),
+        machine: (on) => this.showMachine(on),
         save: () => counterflex.chartFiles.saveCanvas(this.parts.canvas, picture.fileName(this.runs[this.shown.run], this.shown.kind)),
         look: (name) => this.move({...this.camera, ...counterflex.camera.views[name], fitted: true}),
         turn: (dx, dy) => this.move(counterflex.camera.turn(this.camera, -0.01 * dx, 0.01 * dy)),
@@ -83,7 +119,7 @@
       this.shown = shown;
       this.hover = -1;
       this.points = null;
-      this.controls.update(shown);
+      this.controls.update(shown, this.withMachine);
       this.schedule();
     }
 
@@ -120,7 +156,7 @@
 
     zoom(factor, at) {
       const size = this.size();
-      const limits = [1e-4 * this.facts.size, 20 * this.facts.size];
+      const limits = [1e-4 * this.facts.size, 20 * pathModel.sizeOf(this.box())];
       this.move(counterflex.camera.zoom(this.camera, size, factor, at || [size.width / 2, size.height / 2], limits));
     }
 
@@ -151,6 +187,13 @@
       if (stretch === this.hover) return;
       this.hover = stretch;
       this.hovered(this.shown.run, stretch);
+      this.schedule();
+    }
+
+    /** The place under the mouse in another view. */
+    point(run, stretch) {
+      if (run !== this.shown.run || stretch === this.hover) return;
+      this.hover = stretch;
       this.schedule();
     }
 
@@ -191,7 +234,7 @@
     }
 
     /** The camera with the same direction and the whole path in a picture of that size. */
-    whole(size, box = this.shown.box) {
+    whole(size, box = this.box()) {
       return counterflex.camera.fit(this.camera, box, size, margin);
     }
 
@@ -215,7 +258,7 @@
       this.camera = this.fitted(size);
       if (span !== this.camera.span) this.points = null;
       picture.paint(this.view, this.parts.canvas, size, {shown: this.shown, camera: this.camera, units: this.units,
-        theme: counterflex.colours.themeOf(this.container), marked: this.marked()});
+        theme: counterflex.colours.themeOf(this.container), marked: this.marked(), machine: this.machineLines()});
       this.announce();
     }
 
@@ -229,7 +272,13 @@
       const {kind, run, factor} = this.shown;
       Object.assign(this.parts.root.dataset, {renderer: this.view.name, kind, run, factor, stretch,
         centre: centre.join(' '), span: this.camera.span.toPrecision(6),
-        azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
+        machine: this.machineTip(), azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
+    }
+
+    /** The tip of the machine that is shown; '' without one. */
+    machineTip() {
+      const {lines} = this.machineLines() || {lines: []};
+      return lines.flat().slice(-1).map((tip) => tip.map((v) => v.toFixed(1)).join(' ')).join('');
     }
 
     /** For paper: the whole path of each run, before and after. */
@@ -253,7 +302,7 @@
   function createEmpty(container) {
     container.append(el('p', {class: 'scene-empty'}, 'The path cannot be shown: this report has no curves.'));
     const nothing = () => {};
-    return {show: nothing, exaggerate: nothing, themeChanged: nothing, unitChanged: nothing, goTo: nothing,
+    return {show: nothing, exaggerate: nothing, point: nothing, themeChanged: nothing, unitChanged: nothing, goTo: nothing,
       resize: nothing, drawForPrint: nothing};
   }
 
@@ -267,7 +316,7 @@
     const scene = new Scene(container, options);
     const draw = () => scene.schedule();
     return {show: (kind, run = scene.shown.run) => scene.show(kind, run),
-      exaggerate: (factor) => scene.exaggerate(factor), goTo: (run, stretch) => scene.goTo(run, stretch),
+      exaggerate: (factor) => scene.exaggerate(factor), goTo: (run, stretch) => scene.goTo(run, stretch), point: (run, stretch) => scene.point(run, stretch),
       themeChanged: draw, unitChanged: draw, resize: draw, drawForPrint: () => scene.drawForPrint()};
   }
 

@@ -54,11 +54,19 @@
     }};
   }
 
+  /** Shows the lines of the machine. */
+  function machineSwitch(show) {
+    const input = el('input', {type: 'checkbox', name: 'machine', change: () => show(input.checked)});
+    return {element: el('label', {class: 'choice', title: 'The machine at the place that is shown'}, input, el('span', null, 'machine')), set(on) {
+      input.checked = on;
+    }};
+  }
+
   const kindTexts = {wanted: 'wanted', before: 'before', after: 'after (model residual)'};
 
   /**
-   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps}, `act` = {show(kind),
-   * run(index), exaggerate(factor), look(view), save()}. Returns {element, update({kind, run, factor})}.
+   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps, machine: whether there is one}, `act` = {show(kind),
+   * run(index), exaggerate(factor), machine(on), look(view), save()}. Returns {element, update({kind, run, factor}, machine)}.
    */
   function create(options, act) {
     const kinds = radios('Path', options.kinds.map((kind) => ({...kind, text: kindTexts[kind.value]})), act.show);
@@ -66,12 +74,14 @@
       options.runs.map((run, i) => ({...run, value: String(i)})), (value) => act.run(Number(value)));
     const factor = slider(options.steps, act.exaggerate);
     const shift = shiftSwitch(act.show);
+    const machine = options.machine ? machineSwitch(act.machine) : null;
     const save = el('button', {type: 'button', click: act.save}, 'PNG');
-    const parts = [kinds.element, shift.element, ...(runs ? [runs.element] : []), factor.element, viewButtons(act.look), save];
-    return {element: el('div', {class: 'scene-controls'}, parts), update(state) {
+    const parts = [kinds.element, shift.element, ...(runs ? [runs.element] : []), factor.element, ...(machine ? [machine.element] : []), viewButtons(act.look), save];
+    return {element: el('div', {class: 'scene-controls'}, parts), update(state, withMachine) {
       kinds.set(state.kind === 'shifted' ? 'before' : state.kind);
       shift.set(state.kind);
       if (runs) runs.set(state.run);
+      if (machine) machine.set(withMachine);
       factor.set(state.factor);
     }};
   }

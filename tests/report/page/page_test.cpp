@@ -2,12 +2,12 @@
 
 #include <doctest/doctest.h>
 
-#include <cstring>
 #include <nlohmann/json.hpp>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/report/formats.hpp"
-#include "made_up_run.hpp"
+#include "report/made_up_run.hpp"
+#include "report/page/arrays.hpp"
 #include "support/text.hpp"
 
 using namespace counterflex;
@@ -37,29 +37,6 @@ std::vector<std::string> contents(const std::string& page, const std::string& ta
   for (std::size_t at = page.find(tag); at != std::string::npos; at = page.find(tag, at + 1))
     found.push_back(between(page, tag, end, at));
   return found;
-}
-
-/// The bytes of four characters of base64 at a time.
-std::string decoded(const std::string& text) {
-  const std::string digits = "ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789+/";
-  std::string bytes;
-  for (std::size_t i = 0; i < text.size(); i += 4) {
-    unsigned group = 0;
-    for (std::size_t k = 0; k < 4; ++k) {
-      const std::size_t digit = digits.find(text[i + k]);
-      group = group << 6 | static_cast<unsigned>(digit == std::string::npos ? 0 : digit);
-    }
-    for (int shift = 16; shift >= 0; shift -= 8) bytes += static_cast<char>(group >> shift & 255);
-  }
-  return bytes.substr(0, bytes.size() - static_cast<std::size_t>(std::count(text.begin(), text.end(), '=')));
-}
-
-template <typename T>
-std::vector<T> array_of(const nlohmann::json& text) {
-  const std::string bytes = decoded(text.get<std::string>());
-  std::vector<T> values(bytes.size() / sizeof(T));
-  std::memcpy(values.data(), bytes.data(), bytes.size());
-  return values;
 }
 
 }  // namespace
