@@ -27,7 +27,8 @@ std::string page_of(const std::string& runs) {
 }
 
 std::string page_run(const std::string& report) {
-  return R"({"report": )" + report + R"(, "curves": {"waypoints": 3}, "loads": null, "machine": {"axes": []}})";
+  return R"({"report": )" + report +
+         R"(, "curves": {"waypoints": 3}, "loads": null, "machine": {"axes": []}})";
 }
 
 /// Data as in pages.

@@ -1,5 +1,3 @@
-#include <mutex>
-
 #include "commands/commands.hpp"
 #include "run/run.hpp"
 
@@ -9,24 +7,7 @@ namespace {
 /// Runs window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
-  std::mutex speaking;
-  const auto read = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.check(job);
-  };
-  const auto begun = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.warn(job);
-    tally.add_window(job);
-  };
-  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
-    run.load_places.add(job, waypoints);
-    tally.add_waypoints(waypoints, job);
-    files.add_waypoints(waypoints);
-    console.solved(waypoints.size());
-  };
-  const auto done = [](const Job&, const Compensation&) {};
-  return predict_windows(windows.jobs(), run.options.threads, {read, begun, solved, done});
+  return predict_windows(windows.jobs(), run.options.threads, windows.events(run, tally, files));
 }
 
 }  // namespace

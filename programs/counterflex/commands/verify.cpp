@@ -1,5 +1,4 @@
 #include <filesystem>
-#include <mutex>
 #include <utility>
 
 #include "commands/commands.hpp"
@@ -38,25 +37,8 @@ CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadO
 std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& tally, RunFiles& files,
                                   Console& console) {
   Windows windows(run, console);
-  std::mutex speaking;
-  const auto read = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.check(job);
-  };
-  const auto begun = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.warn(job);
-    tally.add_window(job);
-  };
-  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
-    run.load_places.add(job, waypoints);
-    tally.add_waypoints(waypoints, job);
-    files.add_waypoints(waypoints);
-    console.solved(waypoints.size());
-  };
-  const auto done = [](const Job&, const Compensation&) {};
   return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution,
-                        {read, begun, solved, done});
+                        windows.events(run, tally, files));
 }
 
 /// The data lists of the corrected program: files of the same names beside it, or those of the original that

@@ -41,25 +41,10 @@ struct Unnumbered {
 std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, PointCount& points,
                                       Console& console) {
   Windows windows(run, console);
-  std::mutex speaking;
   Unnumbered unnumbered;
-  const auto read = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.check(job);
-  };
-  const auto begun = [&](const Job& job) {
-    const std::lock_guard alone(speaking);
-    windows.warn(job);
-    tally.add_window(job);
-  };
-  const auto solved = [&](const Job& job, const std::vector<Waypoint>& waypoints) {
-    run.load_places.add(job, waypoints);
-    tally.add_waypoints(waypoints, job);
-    files.add_waypoints(waypoints);
-    console.solved(waypoints.size());
-  };
-  const auto done = [&](const Job&, const Compensation& window) {
-    std::unique_lock alone(speaking);
+  WindowEvents events = windows.events(run, tally, files);
+  events.done = [&](const Job&, const Compensation& window) {
+    std::unique_lock alone(windows.speaking());
     for (const LeftAlone& block : window.left_alone)
       console.warning(run.program.file, block.line, "not corrected: " + block.why);
     unnumbered.add(window.counts);
@@ -67,9 +52,8 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     alone.unlock();
     add(window, tally, files);
   };
-  const std::optional<Failure> failure =
-      compensate_windows(windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution,
-                         {read, begun, solved, done});
+  const std::optional<Failure> failure = compensate_windows(
+      windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution, events);
   unnumbered.warn(run.program.file, console);
   return failure;
 }

@@ -290,14 +290,26 @@ Windows::Windows(Run& run, Console& console, std::size_t least_moves)
       reader_(run.file.bytes, run.program.file, run.read, least_moves),
       jobs_(run.input(), reader_) {}
 
-void Windows::check(const Job& window) {
-  console_.solving(window.path.segments.empty() ? 0 : window.path.segments.front().line, run_.program.lines);
-  refuse_uncontrolled_moves(window);
-}
-
-void Windows::warn(const Job& window) {
-  for (const ForceNote& note : window.forces.notes())
-    console_.warning(run_.program.file, note.line, note.what);
+WindowEvents Windows::events(Run& run, RunTally& tally, RunFiles& files) {
+  const auto read = [this](const Job& window) {
+    const std::lock_guard alone(speaking_);
+    const auto& segments = window.path.segments;
+    console_.solving(segments.empty() ? 0 : segments.front().line, run_.program.lines);
+    refuse_uncontrolled_moves(window);
+  };
+  const auto begun = [&](const Job& window) {
+    const std::lock_guard alone(speaking_);
+    for (const ForceNote& note : window.forces.notes())
+      console_.warning(run_.program.file, note.line, note.what);
+    tally.add_window(window);
+  };
+  const auto solved = [&](const Job& window, const std::vector<Waypoint>& waypoints) {
+    run.load_places.add(window, waypoints);
+    tally.add_waypoints(waypoints, window);
+    files.add_waypoints(waypoints);
+    console_.solved(waypoints.size());
+  };
+  return {read, begun, solved, [](const Job&, const Compensation&) {}};
 }
 
 /// Throws if a component of the position that the machine does not control changes.

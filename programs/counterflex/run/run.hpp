@@ -1,6 +1,7 @@
 #pragma once
 /// One program on one machine, read and ready. Common to compensate, predict and verify.
 #include <memory>
+#include <mutex>
 #include <optional>
 
 #include "counterflex/compensation/loads_along.hpp"
@@ -62,17 +63,20 @@ class Windows {
   const ProgramReader& reader() const { return reader_; }
   JobWindows& jobs() { return jobs_; }
 
-  /// Called for a window that has been read: shows progress. Throws `InputError` (ErrorKind::program_text)
-  /// for a move along an axis that the machine does not control.
-  void check(const Job& window);
-  /// Prints notes on its forces as warnings.
-  void warn(const Job& window);
+  /// What a run does with its windows: shows progress, prints notes on forces as warnings, and adds the
+  /// windows and their waypoints to what it keeps. Reading throws `InputError` (ErrorKind::program_text) for
+  /// a move along an axis that the machine does not control. `done` does nothing.
+  WindowEvents events(Run& run, RunTally& tally, RunFiles& files);
+
+  /// Guards the console in events.
+  std::mutex& speaking() { return speaking_; }
 
  private:
   void refuse_uncontrolled_moves(const Job& job);
 
   const Run& run_;
   Console& console_;
+  std::mutex speaking_;
   ProgramReader reader_;
   JobWindows jobs_;
   std::optional<Vector3> first_;  ///< where the path begins

@@ -19,7 +19,8 @@ double margin_of(const Travel& travel, double shown) {
 }
 
 /// `near`: values of the actuators.
-KinematicPlace place_of_result(const Model& model, const NominalResult& nominal, const Eigen::VectorXd& near) {
+KinematicPlace place_of_result(const Model& model, const NominalResult& nominal,
+                               const Eigen::VectorXd& near) {
   if (nominal.status == Status::converged) return place_of(model, nominal.configuration, near);
   KinematicPlace place;
   place.status = nominal.status;

@@ -166,7 +166,7 @@
     if (!run.machine) return null;
     const {axes, constant, s_mm: s} = run.machine;
     const caption = words.ofRun(run, `Axes as the control shows them, at ${s.length} places of the path`);
-    const columns = [{title: 'Axis'}, numberColumn('Least'), numberColumn('Largest'), numberColumn('Travel'), numberColumn('Least margin')];
+    const columns = [{title: 'Axis'}, numberColumn('Least', 'minor'), numberColumn('Largest', 'minor'), numberColumn('Travel'), numberColumn('Least margin')];
     return [table(caption, columns, axes.map((axis) => rowOf(context, r, axis))), constant.map(constantText)];
   }
 
