@@ -43,10 +43,6 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
   add(text, w.s / mm, path_digits);
   for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
-  if (w.R_MT)
-    add_rotation(text, rotation_between(*w.R_MT, Matrix3::Identity()));
-  else
-    text.append(3, ',');
   for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
   add_deviation(text, w.before, solved);
   add_deviation(text, causes.geometry, attributed);
@@ -57,19 +53,23 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   add_deviation(text, w.after, solved && columns.corrected);
   add_deviation(text, causes.air, attributed && columns.corrected);
   add_deviation(text, w.correction, columns.corrected);
-  text.append(",").append(to_string(w.status)).append(",").append(std::to_string(w.iterations)).append("\n");
+  text.append(",").append(to_string(w.status)).append(",").append(std::to_string(w.iterations));
+  if (w.R_MT)
+    add_rotation(text, rotation_between(*w.R_MT, Matrix3::Identity()));
+  else
+    text.append(3, ',');
+  text += '\n';
 }
 
 }  // namespace
 
 std::string csv_header() {
-  std::string row =
-      "index,line,cutting,s_mm,x_mm,y_mm,z_mm,rx_deg,ry_deg,rz_deg,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
+  std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
   for (const char* prefix : prefixes)
     for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
   for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
     row.append(",correction_").append(name);
-  return row + ",status,iterations\n";
+  return row + ",status,iterations,rx_deg,ry_deg,rz_deg\n";
 }
 
 std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns,
