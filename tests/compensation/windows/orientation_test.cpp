@@ -250,7 +250,7 @@ std::vector<Language> languages() {
        [](const std::array<double, 7>& n) {
          return of_angles({n[0], n[1], n[2]}, {n[5], n[4], n[3]});
        }},
-      {"abb", "MODULE part\nPROC main()\n", "ENDPROC\nENDMODULE\n",
+      {"abb", "MODULE part\nPROC main()\nConfJ\\Off;\n", "ENDPROC\nENDMODULE\n",
        [](const PathTarget& t, bool rapid) {
          const Eigen::Quaterniond q = quaternion(t);
          return fmt::format(
