@@ -1,5 +1,6 @@
 #include "commands/commands.hpp"
 #include "run/run.hpp"
+#include "run/windows.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -7,7 +8,7 @@ namespace {
 /// Runs window by window, to the first failure.
 std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
   Windows windows(run, console);
-  return predict_windows(windows.jobs(), run.options.threads, windows.events(run, tally, files));
+  return predict_windows(windows.jobs(), run.options.threads, windows.events(tally, files));
 }
 
 }  // namespace

@@ -6,6 +6,7 @@
 #include "run/header/header_hashes.hpp"
 #include "run/outputs.hpp"
 #include "run/run.hpp"
+#include "run/windows.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -38,7 +39,7 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
                                   Console& console) {
   Windows windows(run, console);
   return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution,
-                        windows.events(run, tally, files));
+                        windows.events(tally, files));
 }
 
 /// The data lists of the corrected program: files of the same names beside it, or those of the original that

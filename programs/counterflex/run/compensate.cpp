@@ -7,6 +7,7 @@
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/program/size_limit.hpp"
+#include "run/windows.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -42,7 +43,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
                                       Console& console) {
   Windows windows(run, console);
   Unnumbered unnumbered;
-  WindowEvents events = windows.events(run, tally, files);
+  WindowEvents events = windows.events(tally, files);
   events.done = [&](const Job&, const Compensation& window) {
     std::unique_lock alone(windows.speaking());
     for (const LeftAlone& block : window.left_alone)

@@ -1,7 +1,6 @@
 #pragma once
 /// One program on one machine, read and ready. Common to compensate, predict and verify.
 #include <memory>
-#include <mutex>
 #include <optional>
 
 #include "counterflex/compensation/loads_along.hpp"
@@ -54,33 +53,6 @@ bool wants_loads(const Run& run);
 
 /// Sets how the corrected program is written: its header, and the numbers of its pieces.
 void prepare_writing(const Options& options, Run& run);
-
-/// The windows of a run's program, read once from the beginning.
-class Windows {
- public:
-  Windows(Run& run, Console& console, std::size_t least_moves = window_moves);
-
-  const ProgramReader& reader() const { return reader_; }
-  JobWindows& jobs() { return jobs_; }
-
-  /// What a run does with its windows: shows progress, prints notes on forces as warnings, and adds the
-  /// windows and their waypoints to what it keeps. Reading throws `InputError` (ErrorKind::program_text) for
-  /// a move along an axis that the machine does not control. `done` does nothing.
-  WindowEvents events(Run& run, RunTally& tally, RunFiles& files);
-
-  /// Guards the console in events.
-  std::mutex& speaking() { return speaking_; }
-
- private:
-  void refuse_uncontrolled_moves(const Job& job);
-
-  const Run& run_;
-  Console& console_;
-  std::mutex speaking_;
-  ProgramReader reader_;
-  JobWindows jobs_;
-  std::optional<Vector3> first_;  ///< where the path begins
-};
 
 /// The tally for waypoints and windows of the run. It has the curves of the path if a page is written.
 RunTally tally_for(const Options& options, const Run& run);

@@ -76,8 +76,12 @@ std::vector<std::string_view> names_of_commands(const CLI::App& app) {
 std::string advice(std::string_view name, const std::vector<std::string_view>& known,
                    const std::string& help) {
   std::string_view meant = nearest(name, known);
-  for (const std::string_view candidate : known)
-    if (meant.empty() && candidate.starts_with(name)) meant = candidate;
+  if (meant.empty()) {  // the beginning of a name: --tolernce for --tolerance-mm
+    std::vector<std::string_view> beginnings;
+    for (const std::string_view candidate : known) beginnings.push_back(candidate.substr(0, name.size()));
+    const auto found = std::ranges::find(beginnings, nearest(name, beginnings));
+    if (found != beginnings.end()) meant = known[static_cast<std::size_t>(found - beginnings.begin())];
+  }
   const std::string see = "counterflex help" + help;
   return meant.empty() ? fmt::format("; see {}", see) : fmt::format("; did you mean {}? See {}", meant, see);
 }

@@ -10,8 +10,8 @@
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/kept_words.hpp"
 #include "counterflex/program/read_program.hpp"
-#include "counterflex/program/skeleton.hpp"
 
 namespace counterflex {
 namespace {
@@ -32,7 +32,7 @@ bool are_copies(const CorrectedMove& found) {
 
 bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != original.motion) return false;
-  const std::string held = skeleton(*found.program, *found.move);
+  const std::string held = kept_words(*found.program, *found.move);
   if (are_copies(found)) return are_alike(held, words);
   return j > 0 && acts_first(original, words) ? is_plain(held) : held == words;
 }
@@ -40,7 +40,7 @@ bool may_end(const Move& original, const std::string& words, const CorrectedMove
 // Whether another piece of the same move may follow.
 bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
-  const std::string held = skeleton(*found.program, *found.move);
+  const std::string held = kept_words(*found.program, *found.move);
   if (are_copies(found)) return are_alike(held, words);
   return j == 0 && acts_first(original, words) ? held == words : is_plain(held);
 }
@@ -72,7 +72,7 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
 // The first moves that end where the original should, after a way that is about as long.
 std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
                               std::size_t others) {
-  const std::string words = skeleton(job_.program, original);
+  const std::string words = kept_words(job_.program, original);
   const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, segment));
   const Curve curve = curve_of(original);
   const double length_mm = length(curve);
@@ -138,7 +138,7 @@ std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std
 
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
   const Move& original = matched.original;
-  const std::string wanted = skeleton(job.program, original);
+  const std::string wanted = kept_words(job.program, original);
   const auto fail = [&](const CorrectedMove& found, std::string what) {
     return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.move->line};
   };
@@ -151,7 +151,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   };
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
-    const std::string words = skeleton(*found.program, move);
+    const std::string words = kept_words(*found.program, move);
     if (are_copies(found)) {
       if (!are_alike(words, wanted))
         return fail(found, "the words besides coordinates are not those of the original's statement");

@@ -121,11 +121,10 @@ const char* stated_words(StatedTurns turns) {
   }
 }
 
-// Whether a target states something of axis `i`: T of all rotary axes, the others of axes 1, 4 and 6 of an
-// arm.
-bool is_stated(StatedTurns turns, const Mechanism& mechanism, std::size_t i) {
-  if (mechanism.travel[i].kind != JointKind::revolute) return false;
-  return turns == StatedTurns::signs || mechanism.travel.size() != 6 || i == 0 || i == 3 || i == 5;
+// Whether a target states something of the rotary axis `ordinal` of an arm, from 1: T of all, the others of
+// axes 1, 4 and 6.
+bool is_stated(StatedTurns turns, int ordinal) {
+  return turns == StatedTurns::signs || ordinal == 1 || ordinal == 4 || ordinal == 6;
 }
 
 // The failure of an axis of which the target states something, between the values that the control shows for
@@ -161,8 +160,9 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
                           last = actuator_values(mechanism, commanded.configuration),
                           from = shown_values(mechanism.shown, first),
                           to = shown_values(mechanism.shown, last + full_turns(mechanism, last, first));
+    int ordinal = 0;
     for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
-      if (!is_stated(turns, mechanism, i)) continue;
+      if (mechanism.travel[i].kind != JointKind::revolute || !is_stated(turns, ++ordinal)) continue;
       const auto k = static_cast<Eigen::Index>(i);
       if (auto failure = stated_failure(turns, mechanism.travel[i], from[k], to[k], piece.line))
         return failure;

@@ -23,6 +23,9 @@ double distance_to_next(const Vector3& from, const Points& points) {
   return HUGE_VAL;
 }
 
+/// Keeps the smaller one of `distance_mm` and the distance that is there for `move`.
+void limit_spacing(std::map<std::size_t, double>& spacings_mm, std::size_t move, double distance_mm);
+
 /// By index of the move: distance (mm) from its target to the nearest point that is inserted beside it,
 /// before it or behind it. Only targets with such a point.
 std::map<std::size_t, double> spacing_at_targets(const Program& program, const std::vector<MoveEdit>& edits,

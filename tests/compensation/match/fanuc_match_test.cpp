@@ -2,9 +2,9 @@
 #include <doctest/doctest.h>
 
 #include "compensation/match/corrected_moves.hpp"
+#include "counterflex/program/kept_words.hpp"
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/program/rewrite.hpp"
-#include "counterflex/program/skeleton.hpp"
 
 using namespace counterflex;
 
@@ -67,19 +67,19 @@ TEST_CASE(
     "statements of a FANUC program are alike if only numbers of lines, positions and coordinates differ") {
   const Program original = read_program(tp_job, "a.ls", {});
   const std::string corrected = corrected_tp_job();
-  const auto skeletons = [](const std::string& text) {
+  const auto words_of = [](const std::string& text) {
     const Program program = read_program(text, "a.ls", {});
     std::vector<std::string> all;
-    for (const Move& move : program.moves) all.push_back(skeleton(program, move));
+    for (const Move& move : program.moves) all.push_back(kept_words(program, move));
     return all;
   };
-  const std::vector<std::string> found = skeletons(corrected);
+  const std::vector<std::string> found = words_of(corrected);
   REQUIRE(found.size() == 4);
-  CHECK(found[0] == skeleton(original, original.moves[0]));
-  CHECK(found[1] == skeleton(original, original.moves[1]));
-  CHECK(found[2] == skeleton(original, original.moves[1]));
-  CHECK(found[3] == skeleton(original, original.moves[2]));
+  CHECK(found[0] == kept_words(original, original.moves[0]));
+  CHECK(found[1] == kept_words(original, original.moves[1]));
+  CHECK(found[2] == kept_words(original, original.moves[1]));
+  CHECK(found[3] == kept_words(original, original.moves[2]));
   CHECK(found[0] != found[1]);  // ACC80
-  CHECK(skeletons(replaced_once(corrected, "'N U T", "'F U T"))[0] != found[0]);
-  CHECK(skeletons(replaced_once(corrected, "9mm/sec CNT50", "9mm/sec CNT60"))[0] != found[0]);
+  CHECK(words_of(replaced_once(corrected, "'N U T", "'F U T"))[0] != found[0]);
+  CHECK(words_of(replaced_once(corrected, "9mm/sec CNT50", "9mm/sec CNT60"))[0] != found[0]);
 }

@@ -121,6 +121,19 @@ TEST_CASE("a program whose statements depend on the main program is not divided"
     CHECK(krl_problem(statement).find("cannot be divided") != std::string::npos);
 }
 
+TEST_CASE("parts of KUKA programs have names of at most 24 characters") {
+  const auto problem_of = [](const std::string& name) {
+    const std::string begin = "DEF " + name + "( )\n";
+    return diagnostic_of(
+        [&] { divide_program("job.src", "kuka", begin + "LIN {X 1}\nLIN {X 2}\nEND\n", 1); });
+  };
+  CHECK(problem_of("finish_of_the_pocket_1") == "none");
+  CHECK(problem_of("finish_of_the_pocket_12") ==
+        "job.src:1:1: error: the program cannot be divided into parts: the name of its part "
+        "finish_of_the_pocket_12_1 is longer than the 24 characters of a name in KRL; divide it where it was "
+        "posted, or give --max-points a larger number");
+}
+
 TEST_CASE("a part that cannot end in time is refused with its line") {
   CHECK(diagnostic_of([] { divide_program("job.src", "kuka", krl_begin + krl_body + krl_end, 1); }) ==
         "none");

@@ -14,6 +14,9 @@
 namespace counterflex {
 namespace {
 
+/// KUKA System Software, Operating and Programming Instructions for System Integrators, "Names in KRL".
+constexpr std::size_t longest_name = 24;
+
 constexpr auto motion_words = std::to_array<std::string_view>({"LIN", "LIN_REL", "CIRC", "PTP", "PTP_REL"});
 
 /// Words that mean the same in every program: keywords and arrays of the control.
@@ -125,7 +128,7 @@ std::string call_of(const std::string& name, std::string_view line_end) {
 std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& text, std::size_t most) {
   const Layout layout = layout_of(text);
   if (empty(layout.name) || layout.divided.empty())
-    refuse_part(file, {.line = 1}, "it has no DEF NAME( ), or no linear motion_words");
+    refuse_part(file, {.line = 1}, "it has no DEF NAME( ), or no linear motion");
   const std::vector<PartStatement> statements = statements_of(file, text, layout);
   const std::vector<std::size_t> begins = begins_of_parts(file, text, statements, most);
   const std::string name(part(text, layout.name));
@@ -136,6 +139,10 @@ std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& 
     const std::size_t next = k + 1 < begins.size() ? statements[begins[k + 1]].span.begin : end;
     const std::size_t first = statements[begins[k]].span.begin;
     const std::string own_name = fmt::format("{}_{}", name, k + 1);
+    if (own_name.size() > longest_name)
+      refuse_part(file, {.line = 1},
+                  fmt::format("the name of its part {} is longer than the {} characters of a name in KRL",
+                              own_name, longest_name));
     parts.front().text += call_of(own_name, line_end);
     parts.push_back({own_name, layout.attributes + "DEF " + call_of(own_name, line_end) + layout.header +
                                    text.substr(first, next - first) + "END" + line_end});

@@ -176,10 +176,6 @@ void UrWriter::limit_zone(const Program& program, const Move& move, double spaci
 std::map<std::size_t, double> UrWriter::zone_spacings(const Program& program,
                                                       const std::vector<MoveEdit>& edits) const {
   std::map<std::size_t, double> spacings_mm = spacing_at_targets(program, edits, options());
-  const auto limit = [&](std::size_t move, double distance_mm) {
-    const auto [at, is_new] = spacings_mm.try_emplace(move, distance_mm);
-    if (!is_new) at->second = std::min(at->second, distance_mm);
-  };
   const auto zone_at_end = [&](const Move& move) {
     const auto call = ur_call_in_line(program.text, move.block.begin);
     return call ? zone_mm(program.text, *call) : 0;
@@ -193,8 +189,8 @@ std::map<std::size_t, double> UrWriter::zone_spacings(const Program& program,
     const double length_mm = (points.front() - start).norm();
     const double both_mm = zone_at_end(before) + zone_at_end(move);
     if (both_mm <= length_mm || both_mm > (move.end_mm - move.start_mm).norm()) continue;
-    limit(m - 1, length_mm);
-    limit(m, length_mm);
+    limit_spacing(spacings_mm, m - 1, length_mm);
+    limit_spacing(spacings_mm, m, length_mm);
   }
   return spacings_mm;
 }

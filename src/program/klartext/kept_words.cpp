@@ -1,10 +1,10 @@
-#include "program/klartext/skeleton.hpp"
+#include "program/klartext/kept_words.hpp"
 
 #include <algorithm>
 #include <string_view>
 
 #include "program/text/scanner.hpp"
-#include "program/write/skeleton.hpp"
+#include "program/write/kept_words.hpp"
 
 namespace counterflex {
 namespace {
@@ -46,7 +46,7 @@ std::string without_klartext_motion(std::string text) {
 
 }  // namespace
 
-std::string klartext_skeleton(const Program& program, const Move& move) {
+std::string klartext_kept_words(const Program& program, const Move& move) {
   return without_klartext_motion(without_klartext_number(without_rewritten_words(program, move, true)));
 }
 

@@ -6,7 +6,7 @@
 
 namespace counterflex {
 
-/// As `skeleton`, of a program in Klartext.
-std::string klartext_skeleton(const Program& program, const Move& move);
+/// As `kept_words`, of a program in Klartext.
+std::string klartext_kept_words(const Program& program, const Move& move);
 
 }  // namespace counterflex

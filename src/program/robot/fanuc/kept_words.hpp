@@ -6,8 +6,8 @@
 
 namespace counterflex {
 
-/// As `skeleton`, of a TP program: the statement, and what its positions have besides the numbers that a
+/// As `kept_words`, of a TP program: the statement, and what its positions have besides the numbers that a
 /// correction changes.
-std::string tp_skeleton(const Program& program, const Move& move);
+std::string tp_kept_words(const Program& program, const Move& move);
 
 }  // namespace counterflex

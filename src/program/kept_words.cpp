@@ -1,31 +1,31 @@
-#include "counterflex/program/skeleton.hpp"
+#include "counterflex/program/kept_words.hpp"
 
 #include <algorithm>
 #include <string_view>
 
 #include "program/dialect.hpp"
-#include "program/klartext/skeleton.hpp"
+#include "program/klartext/kept_words.hpp"
 #include "program/robot/apt/lex.hpp"
-#include "program/robot/fanuc/skeleton.hpp"
+#include "program/robot/fanuc/kept_words.hpp"
+#include "program/robot/kept_words.hpp"
 #include "program/robot/kuka/lex.hpp"
 #include "program/robot/rapid/lex.hpp"
-#include "program/robot/skeleton.hpp"
 #include "program/robot/ur/lex.hpp"
-#include "program/robot/yaskawa/skeleton.hpp"
+#include "program/robot/yaskawa/kept_words.hpp"
 #include "program/text/scanner.hpp"
-#include "program/write/skeleton.hpp"
+#include "program/write/kept_words.hpp"
 
 namespace counterflex {
 
-std::string skeleton(const Program& program, const Move& move) {
-  if (program.dialect == klartext_name) return klartext_skeleton(program, move);
-  if (program.dialect == kuka_name) return statement_skeleton(program, move, krl_comment);
-  if (program.dialect == abb_name) return statement_skeleton(program, move, rapid_comment);
-  if (program.dialect == ur_name) return statement_skeleton(program, move, ur_comment);
-  if (program.dialect == apt_name) return statement_skeleton(program, move, apt_comment);
-  if (program.dialect == tp_name) return tp_skeleton(program, move);
-  if (program.dialect == yaskawa_name) return jbi_skeleton(program, move);
-  return gcode_skeleton(program, move);
+std::string kept_words(const Program& program, const Move& move) {
+  if (program.dialect == klartext_name) return klartext_kept_words(program, move);
+  if (program.dialect == kuka_name) return statement_kept_words(program, move, krl_comment);
+  if (program.dialect == abb_name) return statement_kept_words(program, move, rapid_comment);
+  if (program.dialect == ur_name) return statement_kept_words(program, move, ur_comment);
+  if (program.dialect == apt_name) return statement_kept_words(program, move, apt_comment);
+  if (program.dialect == tp_name) return tp_kept_words(program, move);
+  if (program.dialect == yaskawa_name) return jbi_kept_words(program, move);
+  return gcode_kept_words(program, move);
 }
 
 bool are_alike(const std::string& a, const std::string& b) {
@@ -42,12 +42,12 @@ bool are_alike(const std::string& a, const std::string& b) {
          (target.starts_with('[') && target.ends_with(']'));
 }
 
-bool is_plain(const std::string& skeleton) {
-  for (std::size_t i = 0; i < skeleton.size() && skeleton[i] != ';'; ++i) {
-    const char c = upper(skeleton[i]);
-    if (c == '(') i = std::min(skeleton.find(')', i), skeleton.size() - 1);
+bool is_plain(const std::string& words) {
+  for (std::size_t i = 0; i < words.size() && words[i] != ';'; ++i) {
+    const char c = upper(words[i]);
+    if (c == '(') i = std::min(words.find(')', i), words.size() - 1);
     if (c >= 'A' && c <= 'Z' && c != 'F') return false;
-    if (c == 'F' && skeleton.compare(i, 4, "FMAX") == 0) i += 3;
+    if (c == 'F' && words.compare(i, 4, "FMAX") == 0) i += 3;
   }
   return true;
 }

@@ -18,8 +18,8 @@ std::string_view statement_without_comment(const Program& program, const Move& m
 /// `text` without blanks and tabs.
 std::string without_spaces(std::string_view text);
 
-/// As `skeleton`, of a language that writes zones and targets as KUKA, ABB or Universal Robots do.
+/// As `kept_words`, of a language that writes zones and targets as KUKA, ABB or Universal Robots do.
 /// `comment_mark` begins a comment.
-std::string statement_skeleton(const Program& program, const Move& move, std::string_view comment_mark);
+std::string statement_kept_words(const Program& program, const Move& move, std::string_view comment_mark);
 
 }  // namespace counterflex

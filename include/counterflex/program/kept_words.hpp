@@ -13,12 +13,12 @@ namespace counterflex {
 /// Of a robot program: the statement without blanks, without the numbers of its target and without a zone. Of
 /// a target that is given by a name only the words before it, and '@': it may have been replaced by its
 /// numbers.
-std::string skeleton(const Program& program, const Move& move);
+std::string kept_words(const Program& program, const Move& move);
 
-/// Whether two skeletons are of one statement.
+/// Whether the kept words of two moves are of one statement.
 bool are_alike(const std::string& a, const std::string& b);
 
-/// Whether a skeleton has only words that an inserted piece may have: F. Comments do not count.
-bool is_plain(const std::string& skeleton);
+/// Whether kept words are only those that an inserted piece may have: F. Comments do not count.
+bool is_plain(const std::string& words);
 
 }  // namespace counterflex

@@ -6,7 +6,7 @@
 
 namespace counterflex {
 
-/// As `skeleton`, of a job of Yaskawa.
-std::string jbi_skeleton(const Program& program, const Move& move);
+/// As `kept_words`, of a job of Yaskawa.
+std::string jbi_kept_words(const Program& program, const Move& move);
 
 }  // namespace counterflex

@@ -10,7 +10,7 @@ namespace counterflex {
 /// a word belongs to it.
 std::string without_rewritten_words(const Program& program, const Move& move, bool klartext);
 
-/// As `skeleton`, of a program in G-code.
-std::string gcode_skeleton(const Program& program, const Move& move);
+/// As `kept_words`, of a program in G-code.
+std::string gcode_kept_words(const Program& program, const Move& move);
 
 }  // namespace counterflex

@@ -1,9 +1,9 @@
-#include "program/robot/yaskawa/skeleton.hpp"
+#include "program/robot/yaskawa/kept_words.hpp"
 
 #include <algorithm>
 #include <string_view>
 
-#include "program/robot/skeleton.hpp"
+#include "program/robot/kept_words.hpp"
 #include "program/robot/yaskawa/lex.hpp"
 
 namespace counterflex {
@@ -21,7 +21,7 @@ std::size_t letters_of_position(std::string_view word) {
 // '@' for the target, which may be another position in the corrected program. Names of base axes and
 // stations, and of targets of moves that are not followed, lose their numbers, which insertion changes. CR is
 // a zone.
-std::string step_skeleton(std::string_view statement, bool is_followed) {
+std::string step_kept_words(std::string_view statement, bool is_followed) {
   std::string text;
   for (std::size_t at = 0; at < statement.size();) {
     const std::size_t end = std::min(statement.find_first_of(" \t", at), statement.size());
@@ -42,8 +42,9 @@ std::string step_skeleton(std::string_view statement, bool is_followed) {
 
 }  // namespace
 
-std::string jbi_skeleton(const Program& program, const Move& move) {
-  return step_skeleton(statement_without_comment(program, move, jbi_comment), !target_numbers(move).empty());
+std::string jbi_kept_words(const Program& program, const Move& move) {
+  return step_kept_words(statement_without_comment(program, move, jbi_comment),
+                         !target_numbers(move).empty());
 }
 
 }  // namespace counterflex

@@ -1,4 +1,4 @@
-#include "program/robot/skeleton.hpp"
+#include "program/robot/kept_words.hpp"
 
 #include <algorithm>
 
@@ -107,7 +107,7 @@ std::string without_spaces(std::string_view text) {
   return rest;
 }
 
-std::string statement_skeleton(const Program& program, const Move& move, std::string_view comment_mark) {
+std::string statement_kept_words(const Program& program, const Move& move, std::string_view comment_mark) {
   const std::string_view statement = statement_without_comment(program, move, comment_mark);
   const std::size_t begin = move.block.begin, end = begin + statement.size();
   std::vector<Span> numbers = target_numbers(move);

@@ -1,10 +1,10 @@
-#include "program/robot/fanuc/skeleton.hpp"
+#include "program/robot/fanuc/kept_words.hpp"
 
 #include <algorithm>
 #include <string_view>
 #include <vector>
 
-#include "program/robot/skeleton.hpp"
+#include "program/robot/kept_words.hpp"
 
 namespace counterflex {
 namespace {
@@ -33,7 +33,7 @@ std::string tp_statement(std::string_view block) {
 
 }  // namespace
 
-std::string tp_skeleton(const Program& program, const Move& move) {
+std::string tp_kept_words(const Program& program, const Move& move) {
   const std::vector<Span> numbers = target_numbers(move);
   const std::string& all = program.text;
   std::string text =

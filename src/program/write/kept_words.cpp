@@ -1,4 +1,4 @@
-#include "program/write/skeleton.hpp"
+#include "program/write/kept_words.hpp"
 
 #include <algorithm>
 #include <cctype>
@@ -114,7 +114,7 @@ std::string without_rewritten_words(const Program& program, const Move& move, bo
   return text;
 }
 
-std::string gcode_skeleton(const Program& program, const Move& move) {
+std::string gcode_kept_words(const Program& program, const Move& move) {
   std::vector<std::string_view> names{"N"};
   if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
   if (move.arc) names.insert(names.end(), {"P", "TURN="});
