@@ -76,7 +76,7 @@ test('a narrow window shows line, deviations and cause of the worst blocks, and 
     assert.ok(right <= 400, `${right}`);
 }, {width: 400}));
 
-for (const name of ['pocket', 'face', 'bracket', 'compared', 'failed', 'unverified'])
+for (const name of ['pocket', 'face', 'panel', 'bracket', 'compared', 'failed', 'unverified'])
   test(`"${name}" is printed on four pages at most`, () => visit(name, async (page) => {
     await page.emulateMedia({media: 'print'});
     await page.waitForFunction(() => document.documentElement.hasAttribute('data-printing'));

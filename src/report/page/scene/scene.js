@@ -10,7 +10,7 @@
   const largestMachine = 2;  // times the path: a larger machine is shown only after a click
   const margin = [30, 84];  // pixels beside a fitted path, and above and below for scales and axes
   /** Sizes of one printed picture, of two and of more in a row. Texts are smaller in a picture of more pixels. */
-  const paperSizes = {1: {width: 800, height: 400, ratio: 3}, 2: {width: 520, height: 330, ratio: 4},
+  const paperSizes = {1: {width: 800, height: 400, ratio: 3}, 2: {width: 520, height: 270, ratio: 4},
     3: {width: 300, height: 230, ratio: 6}};
   const hint = 'Drag: turn. Shift or right button: move. Wheel (after a click), + and \u2212: zoom. '
     + 'Double click, 0: fit. Click on the path, \u2190 \u2192: choose a place. '
