@@ -26,6 +26,18 @@ void collect(const std::vector<Element>& elements, std::vector<Actuator>& found)
 
 }  // namespace
 
+bool controls(const Machine& machine, Component component) {
+  const auto& list = machine.controlled;
+  return std::find(list.begin(), list.end(), component) != list.end();
+}
+
+bool controls_pose(const Machine& machine) {
+  for (const Component c :
+       {Component::x, Component::y, Component::z, Component::rx, Component::ry, Component::rz})
+    if (!controls(machine, c)) return false;
+  return true;
+}
+
 Machine perfect(const Machine& machine) {
   Machine result = machine;
   for (Chain& chain : result.chains) make_perfect(chain.elements);

@@ -233,6 +233,12 @@ struct Machine {
   std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
 };
 
+/// Whether the machine lists the component as controlled.
+bool controls(const Machine& machine, Component component);
+
+/// Whether it lists all six.
+bool controls_pose(const Machine& machine);
+
 /// The machine without its assembly errors.
 Machine perfect(const Machine& machine);
 

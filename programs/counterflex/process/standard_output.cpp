@@ -1,6 +1,7 @@
 #include "process/standard_output.hpp"
 
 #include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 
 namespace counterflex::cli {

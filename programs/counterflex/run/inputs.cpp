@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <filesystem>
-#include <set>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -124,10 +123,6 @@ void take_lengths(const ToolLengths& lengths, Machine& machine) {
     else if (machine.X_PS)
       machine.tools[number] = {.length = length_mm * mm, .in_file = false};
   }
-}
-
-bool controls_pose(const Machine& machine) {
-  return std::set<Component>(machine.controlled.begin(), machine.controlled.end()).size() == 6;
 }
 
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools) {

@@ -42,9 +42,6 @@ ToolLengths read_tool_lengths(const Options& options, const Machine* machine);
 /// unknown.
 void take_lengths(const ToolLengths& lengths, Machine& machine);
 
-/// Whether the machine controls position and orientation of its tip in all components.
-bool controls_pose(const Machine& machine);
-
 /// How programs are read: by `options`, else by `machine`.
 ReadOptions read_options(const Options& options, const Machine* machine, const ToolLengths& tools);
 

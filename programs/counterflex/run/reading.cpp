@@ -10,11 +10,8 @@ namespace {
 
 /// Whether the machine moves along all axes of any program: then unknown positions of all axes matter.
 bool ignores_no_axis(const Machine& machine) {
-  const auto& controlled = machine.controlled;
-  const auto controls = [&](Component c) {
-    return std::find(controlled.begin(), controlled.end(), c) != controlled.end();
-  };
-  return controlled.empty() || (controls(Component::x) && controls(Component::y) && controls(Component::z));
+  return machine.controlled.empty() || (controls(machine, Component::x) && controls(machine, Component::y) &&
+                                        controls(machine, Component::z));
 }
 
 /// Logged positions are matched in space. This needs more than one pass.

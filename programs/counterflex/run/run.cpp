@@ -25,11 +25,6 @@
 namespace counterflex::cli {
 namespace {
 
-bool controls(const Machine& machine, int component) {
-  const auto& list = machine.controlled;
-  return std::find(list.begin(), list.end(), static_cast<Component>(component)) != list.end();
-}
-
 /// Axes of the program that the machine does not control.
 std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::array<bool, 3> axes{};
@@ -38,8 +33,8 @@ std::array<bool, 3> uncontrolled_axes(const Machine& machine, const std::vector<
     bool moves_controlled = false;
     for (const WorkFrame& frame : frames)
       for (int c = 0; c < 3; ++c)
-        moves_controlled =
-            moves_controlled || (controls(machine, c) && std::abs(frame.X_MW.R(c, axis)) > 1e-12);
+        moves_controlled = moves_controlled || (controls(machine, static_cast<Component>(c)) &&
+                                                std::abs(frame.X_MW.R(c, axis)) > 1e-12);
     axes[static_cast<std::size_t>(axis)] = !moves_controlled;
   }
   return axes;

@@ -44,7 +44,7 @@ void Windows::refuse_uncontrolled_moves(const Job& job) {
   if (machine.controlled.empty() || job.path.segments.empty()) return;
   if (!first_) first_ = job.path.segments.front().wanted.start;
   for (int c = 0; c < 3; ++c) {
-    if (controls(machine, c)) continue;
+    if (controls(machine, static_cast<Component>(c))) continue;
     for (const Segment& segment : job.path.segments)
       for (const Vector3& p : points_along(segment.wanted))
         if (std::abs(p[c] - (*first_)[c]) > 1e-9)

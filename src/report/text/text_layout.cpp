@@ -1,5 +1,7 @@
 #include "report/text/text_layout.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "counterflex/files/text.hpp"

@@ -4,6 +4,7 @@
 
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/theory.hpp"
+#include "statics/model/tolerances.hpp"
 #include "statics/solve/continuation.hpp"
 
 namespace counterflex {

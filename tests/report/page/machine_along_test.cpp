@@ -116,7 +116,8 @@ TEST_CASE("the data of a page has shown values, and the limits of the machine fi
 TEST_CASE("a machine without limits shows none") {
   MachineAndPlaces arm("/tests/statics/data/serial6r_joints.toml");
   arm.add_circle(3, 20 * mm, 5 * deg);
-  for (const auto& axis : arm.json()["axes"]) {
+  const nlohmann::json json = arm.json();  // outlives the loop, which a temporary in its head does not
+  for (const auto& axis : json["axes"]) {
     CHECK(axis["min"].is_null());
     CHECK(axis["max"].is_null());
   }

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <string_view>
 
+#include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
 
 namespace counterflex {
