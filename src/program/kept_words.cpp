@@ -1,6 +1,7 @@
 #include "counterflex/program/kept_words.hpp"
 
 #include <algorithm>
+#include <optional>
 #include <string_view>
 
 #include "program/dialect.hpp"
@@ -10,6 +11,7 @@
 #include "program/robot/kept_words.hpp"
 #include "program/robot/kuka/lex.hpp"
 #include "program/robot/rapid/lex.hpp"
+#include "program/robot/ur/kept_words.hpp"
 #include "program/robot/ur/lex.hpp"
 #include "program/robot/yaskawa/kept_words.hpp"
 #include "program/text/scanner.hpp"
@@ -17,29 +19,44 @@
 
 namespace counterflex {
 
+namespace {
+
+/// Empty for a language that is compared in another way.
+std::optional<StatementForm> statement_form(const std::string& dialect) {
+  if (dialect == kuka_name)
+    return StatementForm{.comment_mark = krl_comment, .has_named_numbers = true, .may_lack_numbers = true};
+  if (dialect == abb_name) return StatementForm{.comment_mark = rapid_comment};
+  if (dialect == ur_name) return StatementForm{.comment_mark = ur_comment};
+  if (dialect == apt_name) return StatementForm{.comment_mark = apt_comment, .may_lack_numbers = true};
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::string kept_words(const Program& program, const Move& move) {
   if (program.dialect == klartext_name) return klartext_kept_words(program, move);
-  if (program.dialect == kuka_name) return statement_kept_words(program, move, krl_comment);
-  if (program.dialect == abb_name) return statement_kept_words(program, move, rapid_comment);
-  if (program.dialect == ur_name) return statement_kept_words(program, move, ur_comment);
-  if (program.dialect == apt_name) return statement_kept_words(program, move, apt_comment);
   if (program.dialect == tp_name) return tp_kept_words(program, move);
   if (program.dialect == yaskawa_name) return jbi_kept_words(program, move);
-  return gcode_kept_words(program, move);
+  auto form = statement_form(program.dialect);
+  if (!form) return gcode_kept_words(program, move);
+  if (program.dialect == ur_name) describe_ur_statement(program.text, move, *form);
+  return statement_kept_words(program, move, *form);
+}
+
+std::string declared_kept_words(const Program& program, Span within, const std::vector<Span>& numbers) {
+  return target_kept_words(program.text, within, numbers,
+                           statement_form(program.dialect).value_or(StatementForm{}));
+}
+
+std::string line_kept_words(const Program& program, std::string_view line, std::string rest) {
+  if (program.dialect != yaskawa_name || !is_jbi_counts(line)) return rest;
+  return jbi_surplus(program.text, line);
 }
 
 bool are_alike(const std::string& a, const std::string& b) {
-  const std::size_t named = a.find('@');
-  if (named == std::string::npos && b.find('@') != std::string::npos) return are_alike(b, a);
-  if (named == std::string::npos || a == b) return a == b;
-  // The other has its numbers in the statement: between the same words is at least one bracket.
-  const std::string_view head = std::string_view(a).substr(0, named),
-                         tail = std::string_view(a).substr(named + 1);
-  if (b.size() < a.size() || !b.starts_with(head) || !b.ends_with(tail)) return false;
-  std::string_view target = std::string_view(b).substr(named, b.size() - head.size() - tail.size());
-  if (target.starts_with('p')) target.remove_prefix(1);  // p[0.1, 0.2, ...]
-  return (target.starts_with('{') && target.ends_with('}')) ||
-         (target.starts_with('[') && target.ends_with(']'));
+  const std::size_t mark_a = a.find(auxiliary_mark), mark_b = b.find(auxiliary_mark);
+  if ((mark_a == std::string::npos) == (mark_b == std::string::npos)) return a == b;
+  return std::string_view(a).substr(0, mark_a) == std::string_view(b).substr(0, mark_b);
 }
 
 bool is_plain(const std::string& words) {

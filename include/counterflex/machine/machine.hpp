@@ -225,6 +225,9 @@ struct Machine {
   std::map<long, Tool> tools;  ///< by number
   ControlSettings control;
   ControlKinematics kinematics = ControlKinematics::unstated;
+  /// Stated: shown values of the actuators were compared with the pendant. Only then do the joint values of a
+  /// program define places.
+  bool joint_values_as_shown = false;
   Gravity gravity;
   double max_correction = 1e-3;  ///< m
   /// Reference point in the frame where the chains end: not zero for a machine with a tool that bends (m).

@@ -1,6 +1,8 @@
 #pragma once
 /// What of a block correction never changes.
 #include <string>
+#include <string_view>
+#include <vector>
 
 #include "counterflex/program/program.hpp"
 
@@ -10,12 +12,20 @@ namespace counterflex {
 /// piece has it), axes, centre, radius, heights of a cycle, the turns of an arc, G0 to G3 (the move has
 /// the motion), and the F of a G93 move.
 ///
-/// Of a robot program: the statement without blanks, without the numbers of its target and without a zone. Of
-/// a target that is given by a name only the words before it, and '@': it may have been replaced by its
-/// numbers.
+/// Of a robot program: the statement without blanks, comment and the size of a zone, with its targets as they
+/// are in the text, without the numbers that correction changes. The statement of an arc is that of a line,
+/// with the auxiliary point behind a mark.
 std::string kept_words(const Program& program, const Move& move);
 
-/// Whether the kept words of two moves are of one statement.
+/// The same of the part `within` of a robot program that declares targets of moves, whose numbers are
+/// `numbers`, in the order of the text.
+std::string declared_kept_words(const Program& program, Span within, const std::vector<Span>& numbers);
+
+/// The same of a line without moves; `rest` is the line without `Program::counts`. Counts of positions in a
+/// job of Yaskawa become their surplus over the positions in the text.
+std::string line_kept_words(const Program& program, std::string_view line, std::string rest);
+
+/// Whether the kept words of two moves are of one statement. A line may be a chord of an arc.
 bool are_alike(const std::string& a, const std::string& b);
 
 /// Whether kept words are only those that an inserted piece may have: F. Comments do not count.

@@ -175,6 +175,15 @@ Turn turn_of(const MoveOrientation& orientation);
 /// The numbers that the original has at fraction `u` of the move.
 OrientationNumbers numbers_at(const MoveOrientation& orientation, double u);
 
+/// The zone at a target of a robot, within which the control rounds the path: of a statement whose zone
+/// corrections make smaller beside inserted targets.
+struct TargetZone {
+  Span words;  ///< "z10", or the number of r= and CR=
+  double length_mm = 0;
+  double least_mm = 0;            ///< smaller zones cannot be written
+  bool must_not_overlap = false;  ///< the control skips a move if the zones at its ends overlap
+};
+
 /// How a move is corrected.
 enum class Handling : std::uint8_t {
   own,    ///< by the correction at its own end
@@ -209,6 +218,7 @@ struct Move {
   BoxedOptional<CornerEnds> corners;  ///< corners at its ends; infinite if a size is unknown
   /// Of a program that turns the tool. Its position counts as known only where its orientation is.
   BoxedOptional<MoveOrientation> orientation;
+  BoxedOptional<TargetZone> zone;  ///< of a robot's target that is passed, if the size of its zone is known
   /// Of the modal comment (FORCE ...): (N, N m) on the tool, machine frame; empty after (FORCE OFF). A
   /// comment applies from its own block on.
   BoxedOptional<Vector6> force;
@@ -244,14 +254,16 @@ struct Move {
   /// A word of the block acts at its start or end: a line between corners is not split, either.
   bool stays_whole : 1 = false;
   bool block_delete : 1 = false;  ///< a '/' block: states that it sets are unknown afterwards
-  bool exact_stop : 1 = false;    ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  /// It begins at a target in joint values, which is not corrected.
+  bool starts_uncorrected : 1 = false;
+  bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
   /// Points may be inserted: a feed move without exact stop and without a word that acts at its end.
   bool may_split : 1 = false;
   /// A feed move may be inserted before it: start and feed are known, no exact stop.
   bool may_jump : 1 = false;
   bool may_insert_words : 1 = true;  ///< axis words may be inserted; false for a block with G43, G44 or G49
 };
-static_assert(sizeof(Move) <= 256, "programs have millions of moves");
+static_assert(sizeof(Move) <= 264, "programs have millions of moves");
 
 /// Whether the block of an arc stays at the height of its start: it has no word of the axis normal to its
 /// plane and must not get one.

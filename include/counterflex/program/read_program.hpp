@@ -1,5 +1,8 @@
 #pragma once
 /// Reads a machining program.
+#include <array>
+#include <cstdint>
+#include <functional>
 #include <map>
 #include <optional>
 #include <string>
@@ -9,6 +12,17 @@
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
+
+/// Joint values at which a robot is, as its control shows them.
+struct JointPlace {
+  std::array<double, 6> joints{};                   ///< rad
+  std::array<std::optional<double>, 6> external{};  ///< E1 to E6, mm or deg
+};
+
+/// Pose of the tool frame T of this library in coordinates of `frame` (position in mm) for the control, which
+/// knows no error of the machine. `tool` is as in Move. Empty: not known.
+using JointKinematics =
+    std::function<std::optional<Pose>(const JointPlace&, std::int32_t tool, const ProgramFrame& frame)>;
 
 struct ReadOptions {
   /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, fanuc_tp, yaskawa.
@@ -33,6 +47,8 @@ struct ReadOptions {
   bool tool_orientation = false;
   /// Of the control's tool frame, in which programs of robots and six-axis machines give orientations.
   SpindleAxis spindle_axis = SpindleAxis::z;
+  /// Of the robot: where the tool is at targets that give joint values. Without it that is not known.
+  JointKinematics kinematics{};
   /// Replaces calls by M98, CALL LBL and O-words with plain numbers by the bodies.
   bool expand_subprograms = false;
 };

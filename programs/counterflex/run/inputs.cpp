@@ -10,6 +10,7 @@
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/program/program_files.hpp"
 #include "process/read_input.hpp"
+#include "run/joint_kinematics.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {
@@ -135,6 +136,7 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
       options.absolute_centres.value_or(machine != nullptr && machine->control.absolute_centres);
   read.tool_orientation = machine != nullptr && controls_pose(*machine);
   if (machine != nullptr) read.spindle_axis = machine->spindle_axis;
+  if (machine != nullptr && machine->joint_values_as_shown) read.kinematics = joint_kinematics(*machine);
   read.evaluate = options.evaluate;
   read.expand_subprograms = options.expand_subprograms;
   read.tool_lengths_mm = tools.mm;

@@ -160,6 +160,17 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
   return place;
 }
 
+std::optional<Pose> known_frame(const Machine& machine, const ProgramFrame& frame) {
+  WorkFrame offset;
+  const bool is_in_table = !frame.pose_mm && !frame.work_offset.empty() && !machine.work.empty();
+  if (is_in_table && !machine.work_is_machine_frame) {
+    const auto found = machine.work.find(frame.work_offset);
+    if (found == machine.work.end() || found->second.datum.touched_at) return std::nullopt;
+    offset.X_MW = found->second.X_MW;
+  }
+  return place_frame(offset, frame).X_MW;
+}
+
 void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
                        const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;

@@ -1,5 +1,6 @@
 #pragma once
 /// Places a program in the machine frame.
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -26,6 +27,10 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
 /// The same without a machine, from the texts of --work. Without texts all offsets are the machine frame.
 /// Throws `InputError` (ErrorKind::usage) for wrong texts, or if an offset in use is missing.
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program);
+
+/// The pose of `frame` of a robot program, as the control knows it. Empty if its work offset is not in the
+/// machine file, or was touched off.
+std::optional<Pose> known_frame(const Machine& machine, const ProgramFrame& frame);
 
 /// The machine of a run with its tools, and where solutions start.
 struct RunModels {

@@ -27,6 +27,11 @@ Emission Emitter::run() {
 
 void Emitter::emit_move(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
+  if (move.starts_uncorrected) {
+    leave_pending_alone();
+    hold(-frame(move).datum_shift, {true, true, true});
+    state_.turn.setZero();
+  }
   const bool known = all_known(move.known_start) && all_known(move.known_end);
   const bool carries = state_.doubtful && state_.correction_known && pending_.empty() &&
                        (state_.holds[0] || state_.holds[1] || state_.holds[2]);

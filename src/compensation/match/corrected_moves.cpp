@@ -5,6 +5,7 @@
 #include <string_view>
 #include <utility>
 
+#include "counterflex/program/kept_words.hpp"
 #include "counterflex/program/program.hpp"
 #include "counterflex/program/read_program.hpp"
 
@@ -172,12 +173,18 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     const bool of_target = counted.find_first_not_of(" \t") == std::string::npos &&
                            touches(window.counts, first_count, next_count, line, line_begin);
     if (of_target) continue;
+    counted = line_kept_words(window, line, std::move(counted));
     std::string statement = statement_of(window, counted, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
-    std::string rest = without(declared, window.text, line, line_begin, next_number);
-    if (rest.size() < line.size()) statement_.back().without_targets = std::move(rest);
+    const std::size_t first_number = next_number;
+    const std::string rest = without(declared, window.text, line, line_begin, next_number);
+    if (rest.size() < line.size())
+      statement_.back().without_targets = declared_kept_words(
+          window, {line_begin, line_begin + line.size()},
+          {declared.begin() + static_cast<std::ptrdiff_t>(first_number),
+           declared.begin() + static_cast<std::ptrdiff_t>(std::min(next_number, declared.size()))});
     if (ends) end_statement();
   }
   end_statement();

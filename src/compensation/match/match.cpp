@@ -4,6 +4,7 @@
 
 #include "compensation/match/match_pieces.hpp"
 #include "compensation/match/match_shifts.hpp"
+#include "compensation/match/match_zones.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 
@@ -51,6 +52,7 @@ struct MatchState {
   std::size_t next_segment = 0;
   int last_line = 1;  ///< of the corrected program
   CarriedShifts shifts{};
+  ZoneBefore zone{};
   bool skipped = false;  ///< a '/' block made the position unknown: feed moves behind it are held, not judged
   std::vector<DraftPiece> drafts{};
 };
@@ -69,6 +71,7 @@ std::optional<Failure> match_move(const Job& job, const PlannedWays& ways, std::
   if (auto failure = kind_failure(job, matched)) return failure;
   if (auto failure = shift_failure(job, m, matched, state.shifts)) return failure;
   if (auto failure = words_failure(job, matched)) return failure;
+  if (auto failure = zone_failure(job, matched, state.zone)) return failure;
   if (segment && !original.cycle) add_pieces(job, ways, matched, state.drafts);
   add_hole(job, matched, state.drafts);
   add_position(job, matched, state.skipped, state.drafts);
@@ -132,6 +135,7 @@ Matching match_window(const Job& job, const PlannedWays& ways, OtherLines& lines
   MatchState state;
   for (std::size_t m = 0; m < job.program.moves.size() && !result.failure; ++m)
     result.failure = match_move(job, ways, m, others[m], finder, found, state);
+  if (!result.failure) result.failure = state.zone.smaller;
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
   if (!result.failure) result.pieces = refined(job, std::move(state.drafts));
   return result;

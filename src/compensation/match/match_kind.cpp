@@ -37,6 +37,7 @@ class KindComparison {
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
         tolerance_mm_(job.options.tolerance / mm),
+        tilt_tolerance_(job.options.tilt_tolerance),
         most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
                        mm) {}
 
@@ -152,7 +153,7 @@ class KindComparison {
                                      "original {}",
                                      arc.turns, wanted.turns));
     const bool rigid = original_.handling != Handling::own || !all_known(original_.known_start);
-    if (!rigid) return;
+    if (!rigid) return compare_middle(found);
     const Vector3 from = wanted.absolute_centre ? original_.end_mm : original_.start_mm,
                   found_from = arc.absolute_centre ? found.end_mm : found.start_mm;
     const Vector3 centre = arc.centre_mm - found_from, wanted_centre = wanted.centre_mm - from;
@@ -165,6 +166,23 @@ class KindComparison {
     if (miss > room)
       fail(found,
            fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
+  }
+
+  // The inside of an arc that is not split is not judged by its deviation. It is shifted as its ends are.
+  void compare_middle(const Move& found) {
+    if (original_.may_split || !arc_has_point(found)) return;
+    const Vector3 at_start = found.start_mm - original_.start_mm, at_end = found.end_mm - original_.end_mm;
+    const Vector3 shift = point_at(curve_of(found), 0.5) - point_at(curve_of(original_), 0.5);
+    const double off = (shift - (at_start + at_end) / 2).norm();
+    const double room = (at_end - at_start).norm() + tolerance_mm_ + roundings * rounding_mm_;
+    if (off > room)
+      fail(found,
+           fmt::format("the middle of this arc is off by {:.4f} mm, between its ends {:.4f} mm are allowed",
+                       off, room));
+  }
+
+  bool arc_has_point(const Move& found) const {
+    return found.arc->through && original_.arc->through && all_known(found.known_start);
   }
 
   void compare_sweeps() {
@@ -181,6 +199,14 @@ class KindComparison {
     const bool known = all_known(original_.known_start) && all_known(original_.known_end);
     const bool steps = original_.handling == Handling::group;  // to the shift of its contour
     if (!known || original_.cycle || steps || !all_known(found.known_start)) return;
+    if (original_.orientation && found.orientation) {
+      const Turn turn = turn_of(*found.orientation), wanted = turn_of(*original_.orientation);
+      const double angle = rotation_between(turn.end, turn.start).norm();
+      if (angle > tilt_tolerance_ + rotation_between(wanted.end, wanted.start).norm())
+        return fail(found,
+                    fmt::format("this move turns the tool by {:.4f} degrees, that of the original does not",
+                                angle / deg));
+    }
     const double way = (found.end_mm - found.start_mm).norm();
     if (way > tolerance_mm_ + roundings * rounding_mm_)
       fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
@@ -221,7 +247,7 @@ class KindComparison {
 
   const MatchedMoves& matched_;
   const Move& original_;
-  const double rounding_mm_, tolerance_mm_, most_shift_mm_;
+  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, most_shift_mm_;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;                    // of the arcs and chords so far
   std::optional<Failure> failure_;

@@ -10,6 +10,7 @@
 #include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/read_program.hpp"
 
 namespace counterflex {
 namespace {
@@ -37,6 +38,7 @@ std::string without_heights(const CalledCycle& cycle) {
 std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShifts& carried) {
   constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
   const Move &original = matched.original, &found = *matched.found.back().move;
+  if (is_robot_dialect(matched.found.back().program->dialect)) return std::nullopt;  // named targets
   const double shift = found.end_mm.z() - original.end_mm.z();
   if (takes_surface(original) != takes_surface(found))
     return Failure{
@@ -152,6 +154,23 @@ std::optional<Failure> corner_failure(const MatchedMoves& matched) {
   return check(*matched.found.back().move, original.corners->end_mm);
 }
 
+// External axes of a robot keep their values.
+std::optional<Failure> external_failure(const Job& job, const MatchedMoves& matched) {
+  const CorrectedMove& last = matched.found.back();
+  const auto fail = [&](std::string what) {
+    return Failure{ErrorKind::not_compensated, matched.original.line, std::move(what), last.move->line};
+  };
+  const auto& moves = last.program->external_axes_move;
+  if (moves && !job.program.external_axes_move) return fail(moves->what);
+  for (std::size_t i = 0; i < job.program.external_axes.size(); ++i) {
+    const auto &wanted = job.program.external_axes[i], &found = last.program->external_axes[i];
+    if (wanted && found && wanted->value != found->value)
+      return fail(fmt::format("external axis E{} is at {}, in the original at {}", i + 1, found->value,
+                              wanted->value));
+  }
+  return std::nullopt;
+}
+
 }  // namespace
 
 std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched) {
@@ -162,7 +181,7 @@ std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched
   const double off = (found.origin_mm - wanted.origin_mm).norm();
   const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm &&
                     off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
-  if (same) return std::nullopt;
+  if (same) return external_failure(job, matched);
   return Failure{
       ErrorKind::not_compensated, matched.original.line,
       fmt::format("the coordinates of this block are not those of the original: another offset, or {:.4f} mm "

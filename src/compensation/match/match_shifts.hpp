@@ -13,7 +13,7 @@ struct CarriedShifts {
   double height_mm = 0;                            ///< of the last height that is known
 };
 
-/// Both programs must set the coordinates of their moves alike.
+/// Both programs must set the coordinates of their moves alike, and keep external axes at the same values.
 std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched);
 
 /// The first failure of move `m`: the heights of a cycle, axes, contours and corners must be shifted alike.

@@ -140,6 +140,8 @@ void describe_settings(const Machine& machine, std::string& text) {
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
   if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
+  if (machine.joint_values_as_shown)
+    line("joints", "joint values of programs are the shown values; stated by the file");
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
   if (machine.work_is_machine_frame)

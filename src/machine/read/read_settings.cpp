@@ -174,7 +174,10 @@ void read_controller(const toml::table& document, const Source& source, Machine&
   const toml::node* node = document.get("controller");
   if (node == nullptr) return;
   const toml::table& table = as_table(*node, "controller", source);
-  check_keys(table, {"kinematics"}, "[controller]", source);
+  check_keys(table, {"kinematics", "joint_values"}, "[controller]", source);
+  if (const toml::node* joint_values = table.get("joint_values"))
+    machine.joint_values_as_shown =
+        as_choice(*joint_values, "joint_values", {"as_shown"}, source) == "as_shown";
   if (const toml::node* kinematics = table.get("kinematics"))
     machine.kinematics = as_choice(*kinematics, "kinematics", {"catalogue", "factory"}, source) == "factory"
                              ? ControlKinematics::factory

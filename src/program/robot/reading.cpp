@@ -78,21 +78,47 @@ void allow_changes(const TargetMove& how, bool external_stay, Move& move) {
   const bool line = move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end);
   move.exact_stop = move.motion == Motion::feed && !how.passes;
   move.may_split = line && how.passes && external_stay;
-  move.may_jump = move.may_split && move.feed_mm_min > 0;
+  // Behind a joint target the robot may stop once more: the correction begins there.
+  const bool may_begin = move.may_split || (line && external_stay && move.starts_uncorrected);
+  move.may_jump = may_begin && move.feed_mm_min > 0;
 }
 
 void count_zone(const TargetMove& how, int line, Zones& zones) {
   if (!how.passes || !how.rounds) return;
   ++zones.count;
-  if (how.zone_mm <= zones.largest_mm) return;
-  zones.largest_mm = how.zone_mm;
+  if (how.zone.length_mm <= zones.largest_mm) return;
+  zones.largest_mm = how.zone.length_mm;
   zones.largest_line = line;
+}
+
+/// The robot stays, but not its coordinates.
+void forget_coordinates(RobotReading& r) {
+  r.state.known_position.fill(false);
+  r.state.known_orientation.fill(false);
+}
+
+/// The place of the tool after a joint target.
+void place_at_joints(RobotReading& r) {
+  RobotState& state = r.state;
+  const auto joints = std::exchange(state.joints, std::nullopt);
+  if (!joints || !r.options.kinematics) return;
+  const auto X = r.options.kinematics(*joints, state.tool, r.program.frames[state.frame]);
+  if (!X) return;
+  state.at_joints = true;
+  state.position_mm = X->p;
+  state.known_position.fill(true);
+  state.known_orientation.fill(r.turns);
+  if (!r.turns) return;
+  const bool turned = r.form != OrientationForm::axis;
+  const Matrix3 R = turned ? Matrix3(X->R * tool_axes(r.options.spindle_axis).transpose()) : X->R;
+  state.orientation = numbers_of(r.form, R, {1, 0, 0, 0});
 }
 
 }  // namespace
 
 Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
   RobotState& state = r.state;
+  place_at_joints(r);
   Move move;
   move.line = line.line;
   move.block_index = r.program.block_count - 1;
@@ -100,6 +126,7 @@ Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
   move.motion = motion;
   move.known_start = known_axes(r);
   move.moved_only_by_program.fill(!state.moved_by_machine);
+  move.starts_uncorrected = std::exchange(state.at_joints, false);
   move.start_mm = move.end_mm = state.position_mm;
   move.unit = state.unit;
   move.feed_mm_min = state.feed_mm_min;
@@ -121,7 +148,9 @@ void end_at_target(RobotReading& r, const RobotTarget& target, const TargetMove&
   if (move.orientation) move.orientation->stated_turns = how.stated_turns;
   allow_changes(how, place_external(target, r, move.line), move);
   count_zone(how, move.line, r.program.zones);
-  r.began_in_zone = std::exchange(r.in_zone, how.passes && how.zone_mm > 0);
+  const bool in_zone = how.passes && how.zone.length_mm > 0;
+  r.began_in_zone = std::exchange(r.in_zone, in_zone);
+  if (in_zone && how.zone.words.end > how.zone.words.begin) move.zone = how.zone;
   if (all_known(move.known_end)) return r.last_reason.clear();
   note_uncorrected(
       r, {.line = move.line},
@@ -169,9 +198,11 @@ void add_unfollowed_move(RobotReading& r, const RobotLine& line, std::string why
   note_uncorrected(r, line, std::move(why));
 }
 
-void add_joint_move(RobotReading& r, const RobotLine& line, std::string why) {
+void add_joint_move(RobotReading& r, const RobotLine& line, std::string why,
+                    const std::optional<JointPlace>& joints) {
   forget_position(r);
-  r.state.external = {};
+  r.state.external = joints ? joints->external : RobotState{}.external;
+  r.state.joints = joints;
   r.state.moved_by_machine = true;
   r.last_reason = why;
   r.program.left_alone.push_back({.line = line.line, .why = std::move(why), .machine_position = true});
@@ -184,8 +215,8 @@ void note_uncorrected(RobotReading& r, const RobotLine& line, std::string why) {
 }
 
 void forget_position(RobotReading& r) {
-  r.state.known_position.fill(false);
-  r.state.known_orientation.fill(false);
+  r.state.joints.reset();
+  forget_coordinates(r);
 }
 
 void enter_robot_frame(RobotReading& r, const ProgramFrame& frame) {
@@ -193,13 +224,13 @@ void enter_robot_frame(RobotReading& r, const ProgramFrame& frame) {
   if (index == r.state.frame) return;
   r.state.frame = index;
   r.state.moved_by_machine = true;
-  forget_position(r);
+  forget_coordinates(r);
 }
 
 void enter_robot_tool(RobotReading& r, std::int32_t tool) {
   r.state.tool = tool;
   r.state.moved_by_machine = true;
-  forget_position(r);
+  forget_coordinates(r);
 }
 
 void read_robot_comment(RobotReading& r, const RobotLine& line) {

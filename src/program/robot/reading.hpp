@@ -18,6 +18,9 @@ struct RobotState {
   OrientationNumbers orientation{};
   std::array<bool, 4> known_orientation{};  ///< by number
   std::array<std::optional<double>, 6> external{};
+  /// A joint target after which no statement moved the robot; the position is unknown until the next move.
+  std::optional<JointPlace> joints{};
+  bool at_joints = false;                     ///< the position is that of a joint target
   bool moved_by_machine = false;              ///< since the last move: a joint target, another frame or tool
   LengthUnit unit = LengthUnit::millimetres;  ///< of the numbers of positions in the text
   double feed_mm_min = 0;
@@ -49,7 +52,7 @@ struct TargetMove {
   StatedTurns stated_turns = StatedTurns::none;
   bool passes = false;  ///< the robot does not stop at the target: C_DIS, a zone, CNT
   bool rounds = true;   ///< where it passes; false for APT, which leaves that to the post
-  double zone_mm = 0;   ///< length within which it rounds the path; 0: not known
+  TargetZone zone{};    ///< where it passes; without words: corrections do not change it
 };
 
 /// Begins a move in the state before the statement of `line`.
@@ -70,8 +73,10 @@ void add_target_move(RobotReading& reading, const RobotLine& line, const RobotTa
 /// A statement that moves the robot and is not followed: no edit can shift its end.
 void add_unfollowed_move(RobotReading& reading, const RobotLine& line, std::string why);
 
-/// A statement that moves the robot to joint positions. The position is unknown until the next full target.
-void add_joint_move(RobotReading& reading, const RobotLine& line, std::string why);
+/// A statement that moves the robot to joint positions. It is not changed. The position is that of `joints`
+/// if the options have the kinematics of the robot, else it is unknown until the next full target.
+void add_joint_move(RobotReading& reading, const RobotLine& line, std::string why,
+                    const std::optional<JointPlace>& joints = {});
 
 /// Lists an uncorrected statement. Of a run of equal reasons only the first is listed.
 void note_uncorrected(RobotReading& reading, const RobotLine& line, std::string why);

@@ -160,10 +160,21 @@ std::string RobotWriter::header_text(const std::string& line) const {
 void RobotWriter::shift_statement(const Program&, const Move&, const Vector3&,
                                   std::vector<TextChange>&) const {}
 
-void RobotWriter::limit_zone(const Program&, const Move&, double, std::vector<TextChange>&) const {}
+std::string RobotWriter::smaller_zone(const Program& program, const TargetZone& zone, double) const {
+  return std::string(part(program.text, zone.words));
+}
 
-std::map<std::size_t, double> RobotWriter::zone_spacings(const Program&, const std::vector<MoveEdit>&) const {
-  return {};
+std::map<std::size_t, double> RobotWriter::zone_spacings(const Program& program,
+                                                         const std::vector<MoveEdit>& edits) const {
+  return spacing_at_targets(program, edits, options_);
+}
+
+/// Makes the zone in the statement of `move` at most half of `spacing_mm`, but not smaller than the language
+/// can write.
+void RobotWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
+                             std::vector<TextChange>& changes) const {
+  if (!move.zone || move.zone->length_mm <= std::max(spacing_mm / 2, move.zone->least_mm)) return;
+  changes.push_back({move.zone->words, smaller_zone(program, *move.zone, spacing_mm)});
 }
 
 Span RobotWriter::copied_part(const Program& program, const Move& move) const {

@@ -51,13 +51,11 @@ class RobotWriter : public ProgramWriter {
   virtual void shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
                                std::vector<TextChange>& changes) const;
 
-  /// Appends the change that makes the zone in the statement of `move` at most half of `spacing_mm`, the
-  /// distance to the nearest point beside its target. The default changes nothing.
-  virtual void limit_zone(const Program& program, const Move& move, double spacing_mm,
-                          std::vector<TextChange>& changes) const;
+  /// The words of a zone that is at most half of `spacing_mm`. Of a language whose moves have zones.
+  virtual std::string smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const;
 
-  /// The moves with zones to limit, and their spacings. By default no moves: zones have no length in
-  /// statements.
+  /// The moves with zones to limit, and the distances from their targets to the nearest point. By default
+  /// those beside inserted points.
   virtual std::map<std::size_t, double> zone_spacings(const Program& program,
                                                       const std::vector<MoveEdit>& edits) const;
 
@@ -76,6 +74,8 @@ class RobotWriter : public ProgramWriter {
  private:
   struct Output;
   void add_header(Output& output) const;
+  void limit_zone(const Program& program, const Move& move, double spacing_mm,
+                  std::vector<TextChange>& changes) const;
   void write_move(const MoveEdit& edit, Output& output);
   void insert_point(const Move& move, const Via& via, int motion, double spacing_mm, std::string& text,
                     Output& output);

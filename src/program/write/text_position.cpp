@@ -157,12 +157,16 @@ TextPosition known_text_position(const Move& move, const TextPosition& before) {
   TextPosition position;
   position.orientation = before.orientation;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.known_start[axis]) assign(position[axis], before[axis]);
+    if (move.starts_uncorrected)
+      position[axis] = component(move.start_mm, axis);
+    else if (move.known_start[axis])
+      assign(position[axis], before[axis]);
   assign(position.cycle_initial_mm, before.cycle_initial_mm);
   return position;
 }
 
 TextPosition text_position_between(const Move& last, const Move& next, const TextPosition& position) {
+  if (next.starts_uncorrected) return known_text_position(next, position);
   TextPosition moved = position;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double change_mm = component(next.start_mm, axis) - component(last.end_mm, axis);

@@ -64,7 +64,10 @@ struct Shop {
     REQUIRE(model.home_status == Status::converged);
     tools = prepare_tools(order.machine, model, overview_of(program).tools);
     ignore_axes(program, order.ignored);
-    path = build_toolpath(program, one_frame(program, {{}, X_MW, order.datum_shift}));
+    std::vector<WorkFrame> frames = one_frame(program, {{}, X_MW, order.datum_shift});
+    for (std::size_t i = 0; i < frames.size(); ++i)
+      if (const auto& X = program.frames[i].pose_mm) frames[i].X_MW = {X->R, X->p * mm};
+    path = build_toolpath(program, frames);
     forces.emplace(order.force, program, path, std::vector<Matrix3>{tip(model.mechanism, model.home).R});
     options.method = order.method;
     options.tolerance = order.tolerance;

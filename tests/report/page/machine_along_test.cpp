@@ -156,7 +156,7 @@ TEST_CASE("an arm has three margins, and a limit for them only if the program tu
   CHECK(json["refused_below_deg"] == 1);
   CHECK(json["conditioning"].is_null());
   REQUIRE(json["margins"].size() == 3);
-  const auto& margins = arm.along().places[2].place.margins;
+  const auto margins = arm.along().places[2].place.margins;
   REQUIRE(margins);
   CHECK(array_of<float>(json["margins"][1]["values"])[2] == doctest::Approx((*margins)[1].angle / deg));
 }

@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "program/robot/kept_words.hpp"
+#include "program/text/lex.hpp"
 
 namespace counterflex {
 namespace {
@@ -21,7 +22,6 @@ std::string tp_statement(std::string_view block) {
     text += without_spaces(line);
     at = end + 1;
   }
-  std::erase(text, '\r');
   for (std::size_t at = 0; (at = text.find("P[", at)) != std::string::npos; at += 2) {
     const std::size_t close = std::min(text.find(']', at), text.size());
     text.erase(at + 2, close - at - 2);
@@ -31,26 +31,22 @@ std::string tp_statement(std::string_view block) {
   return text;
 }
 
+// What the position with these numbers has besides them.
+std::string tp_position(std::string_view text, const std::vector<Span>& numbers) {
+  if (numbers.empty()) return {};
+  const std::size_t open = text.rfind('{', numbers.front().begin);
+  const std::size_t begin = open == std::string_view::npos ? numbers.front().begin : open;
+  const std::size_t end = std::min(text.find('}', numbers.back().end), text.size());
+  return words_without(text, {begin, end}, numbers);
+}
+
 }  // namespace
 
 std::string tp_kept_words(const Program& program, const Move& move) {
-  const std::vector<Span> numbers = target_numbers(move);
-  const std::string& all = program.text;
-  std::string text =
-      tp_statement(std::string_view(all).substr(move.block.begin, move.block.end - move.block.begin));
-  if (numbers.empty()) return text;
-  std::size_t at = all.rfind('{', numbers.front().begin);
-  if (at == std::string::npos) at = numbers.front().begin;
-  const auto keep = [&](std::size_t end) {
-    for (; at < end; ++at)
-      if (std::string_view(" \t\r\n").find(all[at]) == std::string_view::npos) text += all[at];
-  };
-  for (const Span& number : numbers) {
-    keep(number.begin);
-    at = number.end;
-  }
-  keep(std::min(all.find('}', at), all.size()));
-  return text;
+  const std::string_view text = program.text;
+  std::string words = tp_statement(part(text, move.block)) + tp_position(text, target_numbers(move));
+  if (move.arc) words += auxiliary_mark + tp_position(text, auxiliary_numbers(move));
+  return words;
 }
 
 }  // namespace counterflex

@@ -151,7 +151,7 @@ void read_component(const Components& components, std::string_view text, const T
   else if (is_numbered(name, 'E', '6'))
     point.target.external[axis_of(name)] = number_of(components, text, component, "").value;
   else if (is_numbered(name, 'J', '9'))
-    point.joint = number_of(components, text, component, "").span.end > 0;
+    point.joints[axis_of(name)] = number_of(components, text, component, "").value;
   else
     components.fail(component.value.begin,
                     fmt::format("'{}' of the position is not known; use UF, UT, CONFIG, X, Y, Z, W, P, R, E1 "
@@ -178,6 +178,7 @@ TpPoint tp_point(const std::string& file, std::string_view text, const TpPositio
     else if (component.name != "UF" && component.name != "UT" && component.name != "CONFIG")
       point.other_groups.push_back(number_of(components, text, component, "").value);
   }
+  point.joint = std::ranges::any_of(point.joints, [](const auto& joint) { return joint.has_value(); });
   if (!point.joint && !is_complete(point))
     components.fail(position.span.begin, "the position needs X, Y, Z, W, P and R, or J1 to J6, of group GP1");
   return point;

@@ -1,5 +1,6 @@
 #pragma once
 /// The list of positions of a FANUC TP program (/POS), and what statements need from lines far from them.
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
@@ -38,11 +39,12 @@ std::optional<Span> line_count_in(std::string_view text, Span line);
 
 /// The content of a position.
 struct TpPoint {
-  std::optional<long> frame{}, tool{};  ///< UF, UT; empty for F: those that are selected
-  std::string configuration{};          ///< CONFIG, without blanks
-  RobotTarget target{};                 ///< of group 1; E1 to E3 are external axes
-  bool joint = false;                   ///< group 1 has joint angles
-  std::vector<double> other_groups{};   ///< numbers of the other groups
+  std::optional<long> frame{}, tool{};            ///< UF, UT; empty for F: those that are selected
+  std::string configuration{};                    ///< CONFIG, without blanks
+  RobotTarget target{};                           ///< of group 1; E1 to E3 are external axes
+  bool joint = false;                             ///< group 1 has joint angles
+  std::array<std::optional<double>, 9> joints{};  ///< J1 to J9, deg; J7 to J9 are external axes
+  std::vector<double> other_groups{};             ///< numbers of the other groups
 };
 
 /// Reads a position. Throws `InputError` at text that is not a position.

@@ -95,7 +95,9 @@ void enter(TpReading& r, const TpMotion& motion, const TpPoint& point) {
 
 /// A copy of the statement has the configuration of the target: a linear motion cannot change it.
 void keep_whole(TpReading& r, const TpMotion& motion, const TpPoint& point, Move& move) {
-  if (motion.acts_once || r.configuration != point.configuration) move.may_split = move.may_jump = false;
+  // Behind a joint target the configuration cannot change: the control would refuse the line.
+  const bool changes = r.configuration != point.configuration && !move.starts_uncorrected;
+  if (motion.acts_once || changes) move.may_split = move.may_jump = false;
   r.configuration = point.configuration;
 }
 
@@ -167,6 +169,18 @@ void add_circle(TpReading& r, const RobotLine& line, const TpMotion& motion,
   note_followed(r, motion);
 }
 
+/// The place of a target in joint angles at which the robot stops; empty for other targets, and where the
+/// statement may not run.
+std::optional<JointPlace> joints_of(const TpReading& r, const TpMotion& motion, const TpPoint& point) {
+  if (!point.joint || motion.passes || r.robot.open_bodies > 0) return std::nullopt;
+  JointPlace place{.external = point.target.external};
+  for (std::size_t i = 0; i < place.joints.size(); ++i) {
+    if (!point.joints[i]) return std::nullopt;
+    place.joints[i] = *point.joints[i] * deg;
+  }
+  return place;
+}
+
 /// Why a motion with these targets is not followed; empty if it is.
 std::string why_not_followed(const TpReading& r, const TpMotion& motion, const std::vector<TpPoint>& points) {
   const std::string_view text = r.robot.program.text;
@@ -189,8 +203,9 @@ void read_tp_motion(TpReading& r, const RobotLine& line, const TpMotion& motion)
   const std::vector<TpPoint> points = points_of(r, line, motion);
   for (const TpPoint& point : points) watch_other_groups(r, line, point);
   if (std::string why = why_not_followed(r, motion, points); !why.empty())
-    return motion.type == 'J' ? add_joint_move(r.robot, line, std::move(why))
-                              : add_unfollowed_move(r.robot, line, std::move(why));
+    return motion.type == 'J'
+               ? add_joint_move(r.robot, line, std::move(why), joints_of(r, motion, points.front()))
+               : add_unfollowed_move(r.robot, line, std::move(why));
   enter(r, motion, points.back());
   motion.type == 'C' ? add_circle(r, line, motion, points) : add_line(r, line, motion, points.front());
 }

@@ -131,6 +131,9 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   r.robot.program.counts.push_back(loop->last_number);
   if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
   const TargetMove how = with_krl_zone(r, part(text, loop->motion.code), {});
+  std::vector<Move>& moves = r.robot.program.moves;
+  const std::size_t all = moves.size() + static_cast<std::size_t>(loop->last - loop->first + 1);
+  if (all > moves.capacity()) moves.reserve(std::max(all, 2 * moves.capacity()));
   for (long index = loop->first; index <= loop->last; ++index)
     add_element_move(r, *loop, element_of(r, *loop, index), how);
   return true;

@@ -80,6 +80,17 @@ std::array<std::optional<double>, 6> external_of(const KrlAggregate& aggregate) 
   return external;
 }
 
+/// The place of an aggregate that gives A1 to A6 and no other axis of the robot.
+std::optional<JointPlace> joints_of(const KrlAggregate& aggregate) {
+  JointPlace place{.external = external_of(aggregate)};
+  for (std::size_t i = 0; i < place.joints.size(); ++i) {
+    const KrlComponent* axis = find_component(aggregate, fmt::format("A{}", i + 1));
+    if (axis == nullptr || !axis->number) return std::nullopt;
+    place.joints[i] = axis->number->value * deg;
+  }
+  return place;
+}
+
 /// Whether an index of "P[n]" is not a plain number.
 bool has_variable_index(std::string_view variable) {
   const std::size_t open = variable.find('['), close = variable.find(']');
@@ -139,8 +150,10 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
         with_zone(r, statement,
                   {.motion = Motion::rapid,
                    .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none}));
-  add_joint_move(r.robot, line, std::move(why));
-  if (aggregate && head == "PTP" && !in_body(r)) r.robot.state.external = external_of(*aggregate);
+  const bool is_sure = aggregate && head == "PTP" && !in_body(r);
+  const bool stops = is_sure && !with_zone(r, statement, {.motion = Motion::rapid}).passes;
+  add_joint_move(r.robot, line, std::move(why), stops ? joints_of(*aggregate) : std::nullopt);
+  if (is_sure) r.robot.state.external = external_of(*aggregate);
 }
 
 /// The orientation and the external axes of a relative target; a zero changes nothing.
@@ -227,7 +240,7 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
 TargetMove with_krl_zone(const KrlReading& r, std::string_view words, TargetMove how) {
   const std::string upper_case = krl_word(words);
   const bool by_length = upper_case.ends_with("C_DIS");
-  if (by_length) how.zone_mm = r.zone_mm;
+  if (by_length) how.zone.length_mm = r.zone_mm;
   how.passes = how.passes || by_length || upper_case.ends_with("C_VEL") || upper_case.ends_with("C_ORI") ||
                (how.motion == Motion::rapid && upper_case.ends_with("C_PTP"));
   return how;

@@ -180,6 +180,20 @@ RapidOperand rapid_operand(const RapidPlace& place, Span span) {
   return plain_operand(place, span);
 }
 
+std::optional<JointPlace> rapid_joints(const RapidPlace& place, Span span) {
+  const Literal literal = literal_at(place, span);
+  if (!literal.list || literal.list->items.size() != 2) return std::nullopt;
+  const auto axes = numbers_of_list<6>(literal.text, literal.list->items[0]);
+  const auto external = numbers_of_list<6>(literal.text, literal.list->items[1]);
+  if (!axes || !external) return std::nullopt;
+  JointPlace joints;
+  for (std::size_t i = 0; i < axes->size(); ++i) {
+    joints.joints[i] = (*axes)[i] * deg;
+    if ((*external)[i] < rapid_not_connected) joints.external[i] = (*external)[i];
+  }
+  return joints;
+}
+
 double rapid_speed(const RapidPlace& place, Span span) {
   constexpr double mm_min = 60;  // in 1 mm/s
   const Literal literal = literal_at(place, span);

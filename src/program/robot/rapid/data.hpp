@@ -1,5 +1,6 @@
 #pragma once
 /// Values of RAPID data in motions: targets, speeds, zones, tools, work objects.
+#include "counterflex/program/read_program.hpp"
 #include "program/robot/rapid/module.hpp"
 
 namespace counterflex {
@@ -23,6 +24,9 @@ struct RapidOperand {
   bool malformed = false;     ///< `numbers` is not a target
 };
 RapidOperand rapid_operand(const RapidPlace& place, Span span);
+
+/// The place of a jointtarget; empty if its numbers are not known.
+std::optional<JointPlace> rapid_joints(const RapidPlace& place, Span span);
 
 /// Speed of the tool centre point of a speeddata (mm/min); 0 if it is not known.
 double rapid_speed(const RapidPlace& place, Span span);

@@ -166,8 +166,6 @@ bool is_robtarget(const RapidList& list) {
   return true;
 }
 
-constexpr double not_connected = 9e8;  // 9E9: there is no such axis
-
 std::optional<RobotTarget> rapid_target(std::string_view text, const RapidList& list) {
   RobotTarget target;
   for (std::size_t i = 0; i < 3; ++i)
@@ -177,7 +175,7 @@ std::optional<RobotTarget> rapid_target(std::string_view text, const RapidList& 
   for (std::size_t i = 0; i < 6; ++i) {
     const auto number = plain(text, list.items[3].items[i]);
     if (!number) return std::nullopt;
-    if (std::abs(number->value) < not_connected) target.external[i] = number->value;
+    if (std::abs(number->value) < rapid_not_connected) target.external[i] = number->value;
   }
   return target;
 }

@@ -50,6 +50,9 @@ bool is_robtarget(const RapidList& list);
 /// The numbers of a target with the form of `is_robtarget`. Empty if one of them is not a plain number.
 std::optional<RobotTarget> rapid_target(std::string_view text, const RapidList& list);
 
+/// Values of external axes from there on (9E9) mean that there is no such axis.
+constexpr double rapid_not_connected = 9e8;
+
 /// The parts of `span` between commas that are outside of brackets, without blanks around them.
 std::vector<Span> rapid_arguments(std::string_view text, Span span);
 

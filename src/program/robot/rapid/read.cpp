@@ -6,6 +6,8 @@
 #include <array>
 
 #include "program/gcode/remarks.hpp"
+#include "program/robot/rapid/data.hpp"
+#include "program/robot/rapid/motion.hpp"
 #include "program/text/lex.hpp"
 
 namespace counterflex {
@@ -51,6 +53,17 @@ void read_state(RapidReading& r, const RobotLine& line, const RapidStatement& st
                "SingArea\\Wrist lets the control turn the tool differently near a singularity of the wrist");
 }
 
+/// The target of MoveAbsJ at which the robot stops; empty if it is not known, and where the statement may not
+/// run.
+std::optional<JointPlace> joints_of(const RapidReading& r, const RapidStatement& statement) {
+  const std::string_view text = r.robot.program.text;
+  const RapidMotion motion = rapid_motion(text, statement);
+  if (!motion.complete || motion.has("NOEOFFS") || r.robot.open_bodies > 0) return std::nullopt;
+  if (rapid_word(part(text, motion.zone)) != "FINE") return std::nullopt;
+  const RapidPlace place{text, r.module, statement.span.begin};
+  return rapid_joints(place, motion.targets.front());
+}
+
 void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& statement) {
   const std::string& file = r.robot.program.file;
   const std::string_view text = r.robot.program.text;
@@ -66,7 +79,8 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
         file, line, statement.span.begin,
         fmt::format("{} displaces the targets at run time, which is not supported; post the job without it",
                     name));
-  if (head == "MOVEABSJ") return add_joint_move(r.robot, line, "MoveAbsJ moves to joint positions");
+  if (head == "MOVEABSJ")
+    return add_joint_move(r.robot, line, "MoveAbsJ moves to joint positions", joints_of(r, statement));
   if (is_joint_instruction(head))
     return add_joint_move(r.robot, line, fmt::format("'{}' is not supported", name));
   if (is_linear_instruction(head))

@@ -120,7 +120,8 @@ double feed_of(const RapidReading& r, const RapidStatement& statement, const Mov
 /// would stop at the copy, unless ConfL\Off allows any.
 void keep_whole(RapidReading& r, const MoveArguments& motion, Move& move) {
   const std::string& configuration = motion.targets.back().configuration;
-  const bool changes = r.configuration != configuration && !r.any_configuration;
+  // Behind a joint target it cannot change: the control would refuse the line.
+  const bool changes = r.configuration != configuration && !r.any_configuration && !move.starts_uncorrected;
   if (changes) move.may_split = move.may_jump = false;
   r.configuration = configuration;
   for (const std::string_view option : {"T", "ID", "CONC", "Z"})
@@ -145,9 +146,11 @@ constexpr double room_of_circle_point = 15 * deg;
 /// Whether the control turns the tool about one fixed axis along the arc of `move`. By default
 /// (CirPathMode\PathFrame) it interpolates the orientation relative to the path; that is the same for a turn
 /// about the normal of the arc. Of the two directions of the turn it takes that of the circle point, `point`:
-/// ABB, RAPID Instructions, Functions and Data types, 3HAC16581, "MoveC" and "CirPathMode".
+/// ABB, RAPID Instructions, Functions and Data types, 3HAC16581, "MoveC" and "CirPathMode". Corrections at
+/// both ends differ a little: a turn about another axis by less than `same` changes the orientation between
+/// them by less than 1.3e-4 rad.
 bool turns_about_fixed_axis(const RapidReading& r, const RobotTarget& point, const Move& move) {
-  constexpr double same = 1e-5, half_turn = 179 * deg;  // rad
+  constexpr double same = 5e-5, half_turn = 179 * deg;  // rad
   constexpr double first = 0.1, last = 0.9;             // of the sweep: both directions differ clearly there
   const bool in_object = r.circle_path == "\\OBJECTFRAME";
   if (!in_object && !r.circle_path.empty() && r.circle_path != "\\PATHFRAME") return false;
@@ -189,7 +192,7 @@ void add_line(RapidReading& r, const RobotLine& line, const MoveArguments& motio
                 {.motion = kind,
                  .stated_turns = states_turns ? StatedTurns::quadrants : StatedTurns::none,
                  .passes = passes(motion),
-                 .zone_mm = motion.zone.radius_mm},
+                 .zone = {.words = motion.text.zone, .length_mm = motion.zone.radius_mm}},
                 move);
   keep_whole(r, motion, move);
   r.robot.program.moves.push_back(std::move(move));
@@ -206,8 +209,10 @@ void add_circle(RapidReading& r, const RobotLine& line, const MoveArguments& mot
   };
   if (displaced) return not_followed("a point of MoveC is displaced by Offs or RelTool");
   if (!all_known(move.known_start)) return not_followed("the start of MoveC is not known");
-  end_at_target(r.robot, motion.targets[1].target,
-                {.passes = passes(motion), .zone_mm = motion.zone.radius_mm}, move);
+  end_at_target(
+      r.robot, motion.targets[1].target,
+      {.passes = passes(motion), .zone = {.words = motion.text.zone, .length_mm = motion.zone.radius_mm}},
+      move);
   if (!go_through(motion.targets[0].target, move))
     return not_followed("the points of MoveC and its start lie on a line");
   if (!turns_about_fixed_axis(r, motion.targets[0].target, move))

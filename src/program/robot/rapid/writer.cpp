@@ -95,15 +95,8 @@ void RapidWriter::change_target(const Program& program, const Move& move, const 
   if (numbers.becomes_line) change_to_line(keyword, targets, changes);
 }
 
-void RapidWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
-                             std::vector<TextChange>& changes) const {
-  const RapidStatement statement = rapid_statement_at(program.text, move.block.begin, move.block.end);
-  const RapidPlace place{program.text, module_, statement.span.begin};
-  const RapidMotion motion = rapid_motion(program.text, statement);
-  if (!motion.complete) return;
-  const RapidZone zone = rapid_zone(place, motion.zone);
-  if (zone.passes && zone.radius_mm > spacing_mm / 2)
-    changes.push_back({motion.zone, rapid_zone_within(spacing_mm / 2)});
+std::string RapidWriter::smaller_zone(const Program&, const TargetZone&, double spacing_mm) const {
+  return rapid_zone_within(spacing_mm / 2);
 }
 
 /// A declaration is changed if all uses of its name are targets that get the same numbers, to the last digit.

@@ -1,7 +1,6 @@
 #pragma once
 /// Writes corrected programs of ABB robots.
 #include "program/robot/rapid/data.hpp"
-#include "program/robot/spacing.hpp"
 #include "program/robot/writer.hpp"
 
 namespace counterflex {
@@ -14,12 +13,7 @@ class RapidWriter final : public RobotWriter {
   std::size_t header_position(const Program& program) const override;
   void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                      std::vector<TextChange>& changes) const override;
-  std::map<std::size_t, double> zone_spacings(const Program& program,
-                                              const std::vector<MoveEdit>& edits) const override {
-    return spacing_at_targets(program, edits, options());
-  }
-  void limit_zone(const Program& program, const Move& move, double spacing_mm,
-                  std::vector<TextChange>& changes) const override;
+  std::string smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const override;
   void finish_changes(const Program& program, const std::vector<MoveEdit>& edits,
                       std::vector<TextChange>& changes) const override;
 

@@ -78,20 +78,26 @@ std::optional<UrCall> ur_call_in_line(std::string_view text, std::size_t begin) 
   return ur_call_at(text, line.code.begin, line.code.end);
 }
 
-std::optional<UrPose> ur_pose(std::string_view text, Span value) {
-  if (!part(text, value).starts_with("p[") || text[value.end - 1] != ']') return std::nullopt;
-  UrPose pose{value, {}};
-  std::size_t at = value.begin + 2;
-  for (std::size_t i = 0; i < pose.numbers.size(); ++i) {
+std::optional<UrNumbers> ur_list(std::string_view text, Span value) {
+  if (!part(text, value).starts_with('[') || text[value.end - 1] != ']') return std::nullopt;
+  UrNumbers numbers;
+  std::size_t at = value.begin + 1;
+  for (std::size_t i = 0; i < numbers.size(); ++i) {
     const std::size_t stop = end_of_argument(text, at, value.end);
-    const char expected = i + 1 < pose.numbers.size() ? ',' : ']';
+    const char expected = i + 1 < numbers.size() ? ',' : ']';
     if (stop >= value.end || text[stop] != expected) return std::nullopt;
     const auto number = ur_number(text, ur_trimmed(text, {at, stop}));
     if (!number) return std::nullopt;
-    pose.numbers[i] = *number;
+    numbers[i] = *number;
     at = stop + 1;
   }
-  return at == value.end ? std::optional(pose) : std::nullopt;
+  return at == value.end ? std::optional(numbers) : std::nullopt;
+}
+
+std::optional<UrPose> ur_pose(std::string_view text, Span value) {
+  if (!part(text, value).starts_with("p[")) return std::nullopt;
+  const auto numbers = ur_list(text, {value.begin + 1, value.end});
+  return numbers ? std::optional(UrPose{value, *numbers}) : std::nullopt;
 }
 
 std::optional<RobotNumber> ur_number(std::string_view text, Span value) {

@@ -26,10 +26,12 @@ struct UrCall {
   std::vector<UrArgument> arguments;
 };
 
+using UrNumbers = std::array<RobotNumber, 6>;
+
 /// "p[x,y,z,rx,ry,rz]" with plain numbers (m, rad).
 struct UrPose {
   Span span;
-  std::array<RobotNumber, 6> numbers;
+  UrNumbers numbers;
 };
 
 /// The call that begins at byte `at` of `text` and ends before `end`; empty if it is not one.
@@ -37,6 +39,9 @@ std::optional<UrCall> ur_call_at(std::string_view text, std::size_t at, std::siz
 
 /// The call of the motion in the line that begins at byte `begin`.
 std::optional<UrCall> ur_call_in_line(std::string_view text, std::size_t begin);
+
+/// The numbers of "[a,b,c,d,e,f]", joint values; empty for other text, and if a number is computed.
+std::optional<UrNumbers> ur_list(std::string_view text, Span value);
 
 /// The pose that `value` is; empty if it is not one, or if a number is computed.
 std::optional<UrPose> ur_pose(std::string_view text, Span value);

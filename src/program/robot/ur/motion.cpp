@@ -26,6 +26,7 @@ struct UrTarget {
   TargetKind kind = TargetKind::computed;
   RobotTarget numbers{};
   ProgramFrame frame{};
+  std::optional<JointPlace> joints{};  ///< if all of its six numbers are known
 };
 
 Pose pose_of(const UrPose& pose) {
@@ -63,11 +64,21 @@ UrTarget target_in_frame(const UrReading& r, const UrCall& call) {
   return target;
 }
 
+/// Joint values.
+std::optional<JointPlace> joints_at(std::string_view text, Span list) {
+  const auto numbers = ur_list(text, list);
+  if (!numbers) return std::nullopt;
+  JointPlace place;
+  for (std::size_t i = 0; i < numbers->size(); ++i) place.joints[i] = (*numbers)[i].value;
+  return place;
+}
+
 UrTarget target_at(const UrReading& r, Span value) {
   const std::string_view text = r.robot.program.text;
   const Span resolved = ur_resolved(text, r.names, value);
   if (const auto pose = ur_pose(text, resolved)) return target_of(*pose);
-  if (part(text, resolved).starts_with('[')) return {.kind = TargetKind::joints};
+  if (part(text, resolved).starts_with('['))
+    return {.kind = TargetKind::joints, .joints = joints_at(text, resolved)};
   // A variable may hold a position of the tool or of the joints, and its expression other variables.
   if (resolved.begin != value.begin) return {};
   const auto call = ur_call_at(text, value.begin, value.end);
@@ -82,6 +93,24 @@ UrTarget target_at(const UrReading& r, Span value) {
     return target.kind == TargetKind::pose ? target : UrTarget{};
   }
   return {};
+}
+
+/// A joint target as a pose in the base of the robot, if the kinematics are known. `operand`, which a
+/// corrected pose replaces, is the text of each of its numbers.
+UrTarget at_pose(const UrReading& r, const UrTarget& target, Span operand) {
+  if (!target.joints || !r.robot.options.kinematics) return target;
+  const RobotState& state = r.robot.state;
+  const auto X = r.robot.options.kinematics(*target.joints, state.tool, {});
+  if (!X) return target;
+  const Matrix3 R = X->R * tool_axes(r.robot.options.spindle_axis).transpose();
+  const OrientationNumbers vector = numbers_of(OrientationForm::rotation_vector, R, state.orientation);
+  UrTarget posed{.kind = TargetKind::pose};
+  const int decimals = resolution_decimals(LengthUnit::metres);
+  for (std::size_t i = 0; i < 3; ++i) {
+    posed.numbers.position[i] = RobotNumber{operand, X->p[static_cast<Eigen::Index>(i)], decimals};
+    posed.numbers.orientation[i] = RobotNumber{operand, vector[i], decimals};
+  }
+  return posed;
 }
 
 /// The number of an argument: `otherwise` without it, empty if it is computed.
@@ -103,21 +132,35 @@ Span value_of(const UrReading& r, const RobotLine& line, const UrCall& call, std
                      part(text, call.name)));
 }
 
-void read_joint_move(UrReading& r, const RobotLine& line, const UrTarget& target, double zone_mm) {
+/// The zone of r; without a length where r is computed.
+TargetZone zone_of(const UrReading& r, const UrCall& call, std::optional<double> radius) {
+  const UrArgument* argument = ur_argument(r.robot.program.text, call, "r");
+  if (argument == nullptr || !radius) return {};
+  return {.words = argument->value, .length_mm = ur_length_mm * *radius, .must_not_overlap = true};
+}
+
+/// Whether the robot comes to the target, and stops there.
+bool stops_for_sure(const UrReading& r, const TargetZone& zone) {
+  return !in_body(r) && !r.unknown_zone && zone.length_mm == 0;
+}
+
+void read_joint_move(UrReading& r, const RobotLine& line, const UrTarget& target, const TargetZone& zone) {
   if (target.kind == TargetKind::joints)
-    return add_joint_move(r.robot, line, "movej moves to joint positions");
+    return add_joint_move(r.robot, line, "movej moves to joint positions",
+                          stops_for_sure(r, zone) ? target.joints : std::nullopt);
   if (target.kind == TargetKind::computed)
     return add_joint_move(r.robot, line, "the target of movej is computed at run time");
   if (in_body(r)) return add_joint_move(r.robot, line, std::string(in_ur_body));
   enter_robot_frame(r.robot, target.frame);
   r.robot.state.feed_mm_min = 0;
   add_target_move(r.robot, line, target.numbers,
-                  {.motion = Motion::rapid, .passes = zone_mm > 0, .zone_mm = zone_mm});
+                  {.motion = Motion::rapid, .passes = zone.length_mm > 0, .zone = zone});
 }
 
 /// Properties of a move in tool space besides its target.
 struct UrManner {
-  std::optional<double> zone, time, speed;  ///< m, s, m/s; empty: computed
+  TargetZone zone;
+  std::optional<double> time, speed;  ///< s, m/s; empty: computed
   bool unknown_zone_before = false;
 };
 
@@ -127,8 +170,7 @@ Move move_to(UrReading& r, const RobotLine& line, const UrTarget& target, const 
   const bool timed = !manner.time || *manner.time != 0;
   r.robot.state.feed_mm_min = timed ? 0 : manner.speed.value_or(0) * ur_length_mm * seconds_of_minute;
   Move move = begin_robot_move(r.robot, line, Motion::feed);
-  const double zone_mm = ur_length_mm * manner.zone.value_or(0);
-  end_at_target(r.robot, target.numbers, {.passes = zone_mm > 0, .zone_mm = zone_mm}, move);
+  end_at_target(r.robot, target.numbers, {.passes = manner.zone.length_mm > 0, .zone = manner.zone}, move);
   if (timed && manner.time && *manner.time > 0 && all_known(move.known_start))
     move.feed_mm_min = (move.end_mm - move.start_mm).norm() / *manner.time * seconds_of_minute;
   if (timed || manner.unknown_zone_before) move.may_split = move.may_jump = false;
@@ -138,7 +180,8 @@ Move move_to(UrReading& r, const RobotLine& line, const UrTarget& target, const 
 void read_line(UrReading& r, const RobotLine& line, std::string_view head, const UrTarget& target,
                const UrManner& manner) {
   if (target.kind == TargetKind::joints)
-    return add_joint_move(r.robot, line, fmt::format("{} moves to joint positions", head));
+    return add_joint_move(r.robot, line,
+                          fmt::format("{} moves to joint positions, and where these are is not known", head));
   if (target.kind == TargetKind::computed)
     return add_unfollowed_move(r.robot, line, fmt::format("the target of {} is computed at run time", head));
   if (in_body(r)) return add_unfollowed_move(r.robot, line, std::string(in_ur_body));
@@ -158,6 +201,13 @@ std::string why_not_followed(const UrReading& r, const UrTarget& via, const UrTa
   return "";
 }
 
+/// Whether a line can take the place of movec: its two points are side by side, and mode is behind them.
+bool may_become_line(std::string_view text, const UrCall& call) {
+  const UrArgument *via = ur_argument(text, call, "pose_via"), *to = ur_argument(text, call, "pose_to"),
+                   *mode = ur_argument(text, call, "mode");
+  return via + 1 == to && (mode == nullptr || mode > to);
+}
+
 void read_circle(UrReading& r, const RobotLine& line, const UrCall& call, const UrManner& manner) {
   const UrTarget via = target_at(r, value_of(r, line, call, "pose_via")),
                  end = target_at(r, value_of(r, line, call, "pose_to"));
@@ -165,6 +215,7 @@ void read_circle(UrReading& r, const RobotLine& line, const UrCall& call, const 
     return add_unfollowed_move(r.robot, line, why);
   enter_robot_frame(r.robot, end.frame);
   Move move = move_to(r, line, end, manner);
+  if (!may_become_line(r.robot.program.text, call)) move.may_split = move.may_jump = false;
   if (all_known(move.known_end) && go_through(via.numbers, move)) {
     r.robot.program.moves.push_back(std::move(move));
     return;
@@ -178,13 +229,14 @@ void read_circle(UrReading& r, const RobotLine& line, const UrCall& call, const 
 
 void read_ur_motion(UrReading& r, const RobotLine& line, const UrCall& call) {
   const std::string_view head = part(r.robot.program.text, call.name);
-  const UrManner manner{number_of(r, call, "r", 0), number_of(r, call, "t", 0),
+  const std::optional<double> radius = number_of(r, call, "r", 0);
+  const UrManner manner{zone_of(r, call, radius), number_of(r, call, "t", 0),
                         number_of(r, call, "v", default_speed), r.unknown_zone};
-  r.unknown_zone = !manner.zone;
+  r.unknown_zone = !radius;
   if (head == "movec") return read_circle(r, line, call, manner);
   const UrTarget target = target_at(r, value_of(r, line, call, "pose"));
-  if (head == "movej") return read_joint_move(r, line, target, ur_length_mm * manner.zone.value_or(0));
-  read_line(r, line, head, target, manner);
+  if (head == "movej") return read_joint_move(r, line, target, manner.zone);
+  read_line(r, line, head, at_pose(r, target, value_of(r, line, call, "pose")), manner);
 }
 
 }  // namespace counterflex

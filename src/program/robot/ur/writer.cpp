@@ -52,6 +52,31 @@ bool is_named(std::string_view text, Span operand) {
   return !part(text, operand).starts_with("p[");
 }
 
+/// Whether the target of `move` is given by joint values, for which a pose is written.
+bool is_in_joints(std::string_view text, const Move& move) {
+  return move.words[0] && !ur_number(text, move.words[0]->number);
+}
+
+/// "p[x,y,z,rx,ry,rz]" with `numbers`, and those of `move` in the place of numbers that stay.
+std::string pose_text(const Move& move, const TargetNumbers& numbers) {
+  constexpr int all_decimals = 9;
+  std::string text = "p[";
+  const auto add_number = [&](const std::optional<WordNumber>& number, double otherwise) {
+    if (text.back() != '[') text += ',';
+    text +=
+        number ? inserted_number(number->value, number->decimals) : inserted_number(otherwise, all_decimals);
+  };
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    add_number(numbers.position[axis], in_unit(component(move.end_mm, axis), move.unit));
+  for (std::size_t i = 0; i < 3; ++i) add_number(numbers.orientation[i], move.orientation->end[i]);
+  return text + "]";
+}
+
+bool is_empty(const TargetNumbers& numbers) {
+  const auto is_set = [](const std::optional<WordNumber>& number) { return number.has_value(); };
+  return std::ranges::none_of(numbers.position, is_set) && std::ranges::none_of(numbers.orientation, is_set);
+}
+
 /// The pose with `own` changes of its numbers, in the place of its name.
 void put_pose(std::string_view text, Span operand, std::vector<TextChange>& own,
               std::vector<TextChange>& changes) {
@@ -91,6 +116,10 @@ void UrWriter::change_target(const Program& program, const Move& move, const Tar
   const std::string_view text = program.text;
   const auto call = ur_call_in_line(text, move.block.begin);
   if (!call) return;
+  if (is_in_joints(text, move)) {
+    if (!is_empty(numbers)) changes.push_back({move.words[0]->number, pose_text(move, numbers)});
+    return;
+  }
   const auto put = [&](bool auxiliary, std::vector<TextChange> own) {
     const Span operand = operand_of(text, *call, auxiliary);
     if (is_named(text, operand)) return put_pose(text, operand, own, changes);
@@ -120,7 +149,8 @@ void UrWriter::change_named_targets(const Program& program, const std::vector<Mo
   std::map<std::string, std::vector<Use>, std::less<>> by_name;
   for (const MoveEdit& edit : edits) {
     const Move& move = program.moves[edit.move];
-    const auto call = move.words[0] ? ur_call_in_line(text, move.block.begin) : std::nullopt;
+    const bool has_pose = move.words[0] && !is_in_joints(text, move);
+    const auto call = has_pose ? ur_call_in_line(text, move.block.begin) : std::nullopt;
     const Span operand = call ? operand_of(text, *call, false) : Span{};
     if (empty(operand) || !is_named(text, operand)) continue;
     const Step step = round_step(move, {}, {edit.end_mm, edit.centre_mm, edit.orientation}, motion_of(move),
@@ -150,25 +180,15 @@ void UrWriter::change_named_targets(const Program& program, const std::vector<Mo
   }
 }
 
-double UrWriter::zone_mm(std::string_view text, const UrCall& call) const {
-  const UrArgument* argument = ur_argument(text, call, "r");
-  return argument ? ur_length_mm * ur_constant(text, names_, argument->value).value_or(0) : 0;
-}
-
-void UrWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
-                          std::vector<TextChange>& changes) const {
-  const auto call = ur_call_in_line(program.text, move.block.begin);
-  const UrArgument* argument = call ? ur_argument(program.text, *call, "r") : nullptr;
-  if (argument == nullptr || zone_mm(program.text, *call) <= spacing_mm / 2) return;
+std::string UrWriter::smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const {
   // Rounded down, and less than half: the zones at both ends do not overlap.
   constexpr double share = 0.49;
   const double most = share * spacing_mm / ur_length_mm;
   int decimals = resolution_decimals(LengthUnit::metres);
   if (most * power_of_ten(decimals) < 1) decimals += 2;  // a radius of zero would stop the robot
   const double radius = std::floor(most * power_of_ten(decimals)) / power_of_ten(decimals);
-  const bool plain = ur_number(program.text, argument->value).has_value();
-  changes.push_back({argument->value, plain ? number_text(program.text, argument->value, radius, decimals)
-                                            : inserted_number(radius, decimals)});
+  const bool plain = ur_number(program.text, zone.words).has_value();
+  return plain ? number_text(program.text, zone.words, radius, decimals) : inserted_number(radius, decimals);
 }
 
 /// A move is skipped by the control if the zones at its ends overlap. Beside an inserted point a zone is at
@@ -176,10 +196,7 @@ void UrWriter::limit_zone(const Program& program, const Move& move, double spaci
 std::map<std::size_t, double> UrWriter::zone_spacings(const Program& program,
                                                       const std::vector<MoveEdit>& edits) const {
   std::map<std::size_t, double> spacings_mm = spacing_at_targets(program, edits, options());
-  const auto zone_at_end = [&](const Move& move) {
-    const auto call = ur_call_in_line(program.text, move.block.begin);
-    return call ? zone_mm(program.text, *call) : 0;
-  };
+  const auto zone_at_end = [](const Move& move) { return move.zone ? move.zone->length_mm : 0; };
   for (std::size_t m = 1; m < program.moves.size(); ++m) {
     const Move &move = program.moves[m], &before = program.moves[m - 1];
     if (!all_known(move.known_start) || !all_known(move.known_end) || !all_known(before.known_end)) continue;

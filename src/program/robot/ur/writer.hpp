@@ -15,8 +15,7 @@ class UrWriter final : public RobotWriter {
   std::size_t header_position(const Program& program) const override;
   void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                      std::vector<TextChange>& changes) const override;
-  void limit_zone(const Program& program, const Move& move, double spacing_mm,
-                  std::vector<TextChange>& changes) const override;
+  std::string smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const override;
   std::map<std::size_t, double> zone_spacings(const Program& program,
                                               const std::vector<MoveEdit>& edits) const override;
   void finish_changes(const Program& program, const std::vector<MoveEdit>& edits,
@@ -26,8 +25,6 @@ class UrWriter final : public RobotWriter {
   /// no other statement reads them; else the pose with its new numbers takes the place of the name.
   void change_named_targets(const Program& program, const std::vector<MoveEdit>& edits,
                             std::vector<TextChange>& changes) const;
-  /// Blend radius of a call.
-  double zone_mm(std::string_view text, const UrCall& call) const;
 
   UrNames names_;
 };

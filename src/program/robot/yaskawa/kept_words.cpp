@@ -1,10 +1,13 @@
 #include "program/robot/yaskawa/kept_words.hpp"
 
 #include <algorithm>
+#include <array>
+#include <cstdlib>
 #include <string_view>
 
 #include "program/robot/kept_words.hpp"
 #include "program/robot/yaskawa/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -19,8 +22,8 @@ std::size_t letters_of_position(std::string_view word) {
 }
 
 // '@' for the target, which may be another position in the corrected program. Names of base axes and
-// stations, and of targets of moves that are not followed, lose their numbers, which insertion changes. CR is
-// a zone.
+// stations, and of targets of moves that are not followed, lose their numbers, which insertion changes.
+// CR loses its number, a zone.
 std::string step_kept_words(std::string_view statement, bool is_followed) {
   std::string text;
   for (std::size_t at = 0; at < statement.size();) {
@@ -29,8 +32,9 @@ std::string step_kept_words(std::string_view statement, bool is_followed) {
     at = end + 1;
     const std::size_t letters = letters_of_position(word);
     const bool is_target = letters == 1 && is_followed;
-    if (word.starts_with("CR=")) continue;
-    if (is_target)
+    if (word.starts_with("CR="))
+      text += "CR=";
+    else if (is_target)
       text += '@';
     else if (letters > 0 && word[0] != 'P')
       text.append(word.substr(0, letters)).append("@");
@@ -45,6 +49,27 @@ std::string step_kept_words(std::string_view statement, bool is_followed) {
 std::string jbi_kept_words(const Program& program, const Move& move) {
   return step_kept_words(statement_without_comment(program, move, jbi_comment),
                          !target_numbers(move).empty());
+}
+
+bool is_jbi_counts(std::string_view line) {
+  return line.starts_with("///NPOS");
+}
+
+std::string jbi_surplus(std::string_view text, std::string_view line) {
+  constexpr std::array<std::string_view, 3> families{"\nC", "\nBC", "\nEC"};
+  std::string result;
+  std::size_t at = line.find_first_of("0123456789");
+  for (const std::string_view family : families) {
+    if (at >= line.size()) break;
+    const std::string count(line.substr(at));
+    long surplus = std::strtol(count.c_str(), nullptr, 10);
+    for (std::size_t i = 0; (i = text.find(family, i)) != std::string_view::npos; i += family.size())
+      surplus -= i + family.size() < text.size() && is_digit(text[i + family.size()]);
+    result += std::to_string(surplus) + ',';
+    at = line.find(',', at);
+    if (at < line.size()) ++at;
+  }
+  return result + std::string(line.substr(std::min(at, line.size())));
 }
 
 }  // namespace counterflex

@@ -25,6 +25,9 @@ struct JbiMotion {
 
 /// Whether `word` (upper case) moves the robot: MOVJ, MOVL, MOVC, MOVS, IMOV, also of a second group (+MOVL)
 /// or coordinated with a station (SMOVL).
+/// The smallest CR.
+constexpr double least_jbi_corner_mm = 0.1;
+
 bool is_jbi_move(std::string_view word);
 
 /// The words of MOVJ, MOVL or MOVC.

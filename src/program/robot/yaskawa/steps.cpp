@@ -12,8 +12,11 @@
 namespace counterflex {
 namespace {
 
-double corner_mm(const JbiMotion& motion) {
-  return motion.corner_radius ? motion.corner_radius->value : 0;
+TargetZone corner_of(const JbiMotion& motion) {
+  if (!motion.corner_radius) return {};
+  return {.words = motion.corner_radius->span,
+          .length_mm = motion.corner_radius->value,
+          .least_mm = least_jbi_corner_mm};
 }
 
 constexpr std::string_view in_a_body = "a loop or a condition may run the step never or several times";
@@ -70,7 +73,7 @@ void read_joint_step(JbiReading& r, const RobotLine& line, const JbiMotion& moti
                   {.motion = Motion::rapid,
                    .stated_turns = StatedTurns::half_turns,
                    .passes = motion.passes,
-                   .zone_mm = corner_mm(motion)});
+                   .zone = corner_of(motion)});
 }
 
 /// `is_start`: of a circle, whose first MOVC is a line to its start.
@@ -79,7 +82,7 @@ void read_line_step(JbiReading& r, const RobotLine& line, const JbiMotion& motio
   enter(r, motion, target);
   mark_followed(r, motion, target);
   Move move = begin_robot_move(r.robot, line, Motion::feed);
-  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone_mm = corner_mm(motion)}, move);
+  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone = corner_of(motion)}, move);
   if (is_start || motion.stays_whole) move.may_split = move.may_jump = false;
   r.robot.program.moves.push_back(std::move(move));
 }
@@ -111,13 +114,14 @@ Matrix3 orientation_of(const RobotTarget& target) {
 }
 
 /// How the control turns the tool along a circle is not documented. A correction turns it by at most 1
-/// degree.
+/// degree, and the point inside of the circle as its ends.
 bool turns_the_tool(const Move& move, const RobotTarget& point, const RobotTarget& end) {
-  constexpr double room = 1 * deg;
+  constexpr double room = 1 * deg, same = 0.02 * deg;
   const Matrix3 R_start = rotation_of(OrientationForm::fixed_axes, move.orientation->start);
-  const Matrix3 R_end = orientation_of(end);
-  return rotation_between(R_start, R_end).norm() > room ||
-         rotation_between(orientation_of(point), R_end).norm() > room;
+  const Matrix3 R_end = orientation_of(end), R_point = orientation_of(point);
+  const double turn = rotation_between(R_start, R_end).norm();
+  return turn > room || rotation_between(R_point, R_end).norm() > turn + same ||
+         rotation_between(R_point, R_start).norm() > turn + same;
 }
 
 /// A circle is not divided: the points between its ends would belong to another circle.
@@ -129,7 +133,7 @@ void read_circle_end(JbiReading& r, const RobotLine& line, const JbiMotion& moti
   enter(r, motion, target);
   Move move = begin_robot_move(r.robot, line, Motion::feed);
   if (!all_known(move.known_start)) return not_followed("the start of the MOVC circle is not known");
-  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone_mm = corner_mm(motion)}, move);
+  end_at_target(r.robot, target.numbers, {.passes = motion.passes, .zone = corner_of(motion)}, move);
   if (!go_through(point->target, move))
     return not_followed("the three points of the MOVC circle lie on a line");
   if (turns_the_tool(move, point->target, target.numbers))

@@ -94,16 +94,10 @@ void YaskawaWriter::change_target(const Program& program, const Move& move, cons
     if (name) add_position(program, *name, numbers.is_copy, none, changes);
 }
 
-void YaskawaWriter::limit_zone(const Program& program, const Move& move, double spacing_mm,
-                               std::vector<TextChange>& changes) const {
-  constexpr double least_mm = 0.1;  // of CR
-  const JbiMotion motion = jbi_motion(program.text, jbi_line_at(program.text, move.block.begin).code);
-  if (!motion.corner_radius) return;
-  const RobotNumber& radius = *motion.corner_radius;
-  const double most_mm = std::max(spacing_mm / 2, least_mm);
-  if (radius.value > most_mm)
-    changes.push_back(
-        {radius.span, number_text(program.text, radius.span, std::floor(most_mm * 10) / 10, 1)});
+std::string YaskawaWriter::smaller_zone(const Program& program, const TargetZone& zone,
+                                        double spacing_mm) const {
+  const double most_mm = std::max(spacing_mm / 2, zone.least_mm);
+  return number_text(program.text, zone.words, std::floor(most_mm * 10) / 10, 1);
 }
 
 }  // namespace counterflex

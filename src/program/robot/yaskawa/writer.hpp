@@ -4,7 +4,6 @@
 #include <string>
 #include <vector>
 
-#include "program/robot/spacing.hpp"
 #include "program/robot/writer.hpp"
 #include "program/robot/yaskawa/renumber.hpp"
 
@@ -20,12 +19,7 @@ class YaskawaWriter final : public RobotWriter {
   std::size_t header_position(const Program& program) const override;
   void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                      std::vector<TextChange>& changes) const override;
-  std::map<std::size_t, double> zone_spacings(const Program& program,
-                                              const std::vector<MoveEdit>& edits) const override {
-    return spacing_at_targets(program, edits, options());
-  }
-  void limit_zone(const Program& program, const Move& move, double spacing_mm,
-                  std::vector<TextChange>& changes) const override;
+  std::string smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const override;
   /// A new position with the values of `name` after `own` changes; its name in the instruction.
   void add_position(const Program& program, const JbiName& name, bool is_copy, std::vector<TextChange>& own,
                     std::vector<TextChange>& changes) const;
