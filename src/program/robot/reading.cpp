@@ -6,6 +6,7 @@
 #include <utility>
 
 #include "program/gcode/frames.hpp"
+#include "program/gcode/remarks.hpp"
 #include "program/text/arc_radius.hpp"
 #include "program/text/force_comment.hpp"
 #include "program/text/lex.hpp"
@@ -97,10 +98,15 @@ void forget_coordinates(RobotReading& r) {
   r.state.known_orientation.fill(false);
 }
 
-/// The place of the tool after a joint target.
-void place_at_joints(RobotReading& r) {
+/// The place of the tool after a joint target, for a move in `line`.
+void place_at_joints(RobotReading& r, int line, Motion motion) {
   RobotState& state = r.state;
   const auto joints = std::exchange(state.joints, std::nullopt);
+  if (joints && !r.options.kinematics && motion == Motion::feed)
+    add_remark(
+        r.program, line,
+        "the line begins at a target in joint values: it is corrected from its start if the machine file "
+        "has [controller] joint_values = \"as_shown\"");
   if (!joints || !r.options.kinematics) return;
   const auto X = r.options.kinematics(*joints, state.tool, r.program.frames[state.frame]);
   if (!X) return;
@@ -118,7 +124,7 @@ void place_at_joints(RobotReading& r) {
 
 Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
   RobotState& state = r.state;
-  place_at_joints(r);
+  place_at_joints(r, line.line, motion);
   Move move;
   move.line = line.line;
   move.block_index = r.program.block_count - 1;

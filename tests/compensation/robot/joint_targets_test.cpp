@@ -101,6 +101,9 @@ TEST_CASE("the line behind a target in joint values begins at the place of the j
     REQUIRE(unknown.moves.size() == 1);
     CHECK(!all_known(unknown.moves[0].known_start));
     CHECK(!unknown.moves[0].starts_uncorrected);
+    REQUIRE(!unknown.remarks.empty());
+    CHECK(unknown.remarks.back().what.ends_with("has [controller] joint_values = \"as_shown\""));
+    CHECK(program.remarks.size() + 1 == unknown.remarks.size());
   }
 }
 
