@@ -34,17 +34,36 @@ bool stands_alone(std::string_view name) {
   return within(number, 54, 59) || within(number, 500, 599);
 }
 
-/// Frames of robots: "UF 5" of FANUC, "BASE_DATA[1]" of KUKA. `name` is closed up.
+/// Frames of robots: "UF 5" of FANUC, "USER 3" of Yaskawa, "BASE_DATA[1]" of KUKA. `name` is closed up.
 std::optional<std::string> robot_frame_name(std::string_view name) {
-  constexpr std::string_view frame = "UF", base = "BASE_DATA[";
+  constexpr std::string_view frame = "UF", user = "USER", base = "BASE_DATA[";
   constexpr int most = 99;
   if (name.starts_with(frame)) {
     const auto number = digits(name.substr(frame.size()));
     if (within(number, 0, most)) return "UF " + std::to_string(*number);
   }
+  if (name.starts_with(user)) {
+    const auto number = digits(name.substr(user.size()));
+    if (within(number, 1, most)) return "USER " + std::to_string(*number);
+  }
   if (!name.starts_with(base) || !name.ends_with(']')) return std::nullopt;
   const auto number = digits(name.substr(base.size(), name.size() - base.size() - 1));
   return within(number, 1, most) ? std::optional("BASE_DATA[" + std::to_string(*number) + ']') : std::nullopt;
+}
+
+bool is_letter(char c) {
+  return (c >= 'A' && c <= 'Z') || (c >= 'a' && c <= 'z') || c == '_';
+}
+
+bool is_digit(char c) {
+  return c >= '0' && c <= '9';
+}
+
+/// A work object of ABB, a variable of KUKA or URScript: a word that is not like "G60".
+bool is_name_of_frame(std::string_view text) {
+  if (text.size() < 2 || !is_letter(text[0])) return false;
+  if ((text[0] == 'G' || text[0] == 'g') && is_digit(text[1])) return false;
+  return std::all_of(text.begin(), text.end(), [](char c) { return is_letter(c) || is_digit(c); });
 }
 
 }  // namespace
@@ -54,6 +73,7 @@ std::optional<std::string> work_offset_name(std::string_view text) {
   if (stands_alone(name)) return name;
   if (auto frame = robot_frame_name(name)) return frame;
   const std::size_t p = name.find('P');
+  if (is_name_of_frame(text)) return std::string(text);
   if (p == std::string::npos) return std::nullopt;
   const auto page = digits(std::string_view(name).substr(p + 1));
   const std::string group = name.substr(0, p);

@@ -17,6 +17,8 @@ namespace counterflex {
 struct JointPlace {
   std::array<double, 6> joints{};                   ///< rad
   std::array<std::optional<double>, 6> external{};  ///< E1 to E6, mm or deg
+  std::optional<Pose> tcp_mm{};                     ///< of the program, if it gives its numbers
+  bool other_tool = false;                          ///< the program has selected more than one tool
 };
 
 /// Pose of the tool frame T of this library in coordinates of `frame` (position in mm) for the control, which

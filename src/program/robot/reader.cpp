@@ -19,6 +19,10 @@ bool RobotReader::read_block() {
   ++program().block_count;
   refuse_conflict_marker(reading_, line_);
   read_statement(line_);
+  // A call may move the robot away from joint values.
+  RobotState& state = reading_.state;
+  const bool calls = part(program().text, line_.code).find('(') != std::string_view::npos;
+  if (state.joints && state.joints_line != line_.line && calls) state.joints.reset();
   return true;
 }
 

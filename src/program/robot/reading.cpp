@@ -10,6 +10,7 @@
 #include "program/text/arc_radius.hpp"
 #include "program/text/force_comment.hpp"
 #include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -51,6 +52,20 @@ void place_orientation(const RobotTarget& target, RobotReading& r, Move& move) {
   orientation.end = state.orientation;
   if (!all_known(move.known_start)) orientation.start = orientation.end;
   if (orientation_is_known(r)) move.orientation = orientation;
+}
+
+/// Whether the external axes of a target have the values that they have.
+bool keeps_external(const RobotTarget& target, const RobotState& state) {
+  for (std::size_t i = 0; i < target.external.size(); ++i)
+    if (target.external[i] && target.external[i] != state.external[i]) return false;
+  return true;
+}
+
+/// The start of `move` at joint values has no place in its coordinates.
+void forget_start(RobotReading& r, Move& move) {
+  forget_position(r);
+  move.starts_uncorrected = false;
+  move.known_start.fill(false);
 }
 
 /// Whether external axes stay, so that a copy of the statement may end anywhere on the path.
@@ -108,7 +123,10 @@ void place_at_joints(RobotReading& r, int line, Motion motion) {
         "the line begins at a target in joint values: it is corrected from its start if the machine file "
         "has [controller] joint_values = \"as_shown\"");
   if (!joints || !r.options.kinematics) return;
-  const auto X = r.options.kinematics(*joints, state.tool, r.program.frames[state.frame]);
+  JointPlace place = *joints;
+  place.tcp_mm = state.tcp_mm;
+  place.other_tool = state.tools > 1;
+  const auto X = r.options.kinematics(place, state.tool, r.program.frames[state.frame]);
   if (!X) return;
   state.at_joints = true;
   state.position_mm = X->p;
@@ -146,7 +164,13 @@ Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
 }
 
 void end_at_target(RobotReading& r, const RobotTarget& target, const TargetMove& how, Move& move) {
+  if (move.starts_uncorrected && (how.relative || !keeps_external(target, r.state))) forget_start(r, move);
   place_position(target, how.relative, r.state, move);
+  constexpr double shortest_mm = 0.1;
+  if (move.starts_uncorrected && (r.state.position_mm - move.start_mm).norm() < shortest_mm) {
+    move.starts_uncorrected = false;
+    move.known_start.fill(false);
+  }
   place_orientation(target, r, move);
   if (!orientation_is_known(r)) forget_position(r);  // until one target has all of its numbers
   move.end_mm = r.state.position_mm;
@@ -206,9 +230,15 @@ void add_unfollowed_move(RobotReading& r, const RobotLine& line, std::string why
 
 void add_joint_move(RobotReading& r, const RobotLine& line, std::string why,
                     const std::optional<JointPlace>& joints) {
+  const auto external = std::exchange(r.state.external, {});
   forget_position(r);
-  r.state.external = joints ? joints->external : RobotState{}.external;
-  r.state.joints = joints;
+  if (joints) {
+    r.state.joints = joints;
+    r.state.joints_line = line.line;
+    for (std::size_t i = 0; i < external.size(); ++i)  // an axis without a value stays
+      if (!joints->external[i]) r.state.joints->external[i] = external[i];
+    r.state.external = r.state.joints->external;
+  }
   r.state.moved_by_machine = true;
   r.last_reason = why;
   r.program.left_alone.push_back({.line = line.line, .why = std::move(why), .machine_position = true});
@@ -233,15 +263,38 @@ void enter_robot_frame(RobotReading& r, const ProgramFrame& frame) {
   forget_coordinates(r);
 }
 
-void enter_robot_tool(RobotReading& r, std::int32_t tool) {
+void enter_robot_tool(RobotReading& r, std::int32_t tool, const std::optional<Pose>& tcp_mm) {
   r.state.tool = tool;
+  r.state.tcp_mm = tcp_mm;
+  ++r.state.tools;
   r.state.moved_by_machine = true;
   forget_coordinates(r);
 }
 
+namespace {
+
+/// A post says with which lengths it computed the targets.
+void note_kinematics(RobotReading& r, const RobotLine& line) {
+  const std::string_view comment = part(r.program.text, line.comment);
+  for (const std::string_view mark : {"NOMINAL KINEMATICS", "ACCURATE KINEMATICS", "ABSOLUTE ACCURACY"}) {
+    const auto same = [](char a, char b) { return upper(a) == b; };
+    const auto at = std::search(comment.begin(), comment.end(), mark.begin(), mark.end(), same);
+    if (at == comment.end()) continue;
+    const auto begin = static_cast<std::size_t>(at - comment.begin());
+    add_remark(
+        r.program, line.line,
+        fmt::format("a comment says '{}': the errors of assembly in the machine file must be those that "
+                    "the lengths of the control leave; state these with [controller] kinematics",
+                    comment.substr(begin, mark.size())));
+  }
+}
+
+}  // namespace
+
 void read_robot_comment(RobotReading& r, const RobotLine& line) {
   if (empty(line.code) && empty(line.comment)) r.operation.expect_title();
   if (empty(line.comment)) return;
+  note_kinematics(r, line);
   Block place;
   place.line = line.line;
   place.span = line.span;

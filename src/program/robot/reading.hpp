@@ -20,7 +20,10 @@ struct RobotState {
   std::array<std::optional<double>, 6> external{};
   /// A joint target after which no statement moved the robot; the position is unknown until the next move.
   std::optional<JointPlace> joints{};
+  int joints_line = 0;                        ///< of that target
   bool at_joints = false;                     ///< the position is that of a joint target
+  int tools = 0;                              ///< how often a tool was selected
+  std::optional<Pose> tcp_mm{};               ///< of the tool, if the program gives its numbers
   bool moved_by_machine = false;              ///< since the last move: a joint target, another frame or tool
   LengthUnit unit = LengthUnit::millimetres;  ///< of the numbers of positions in the text
   double feed_mm_min = 0;
@@ -88,7 +91,7 @@ void forget_position(RobotReading& reading);
 void enter_robot_frame(RobotReading& reading, const ProgramFrame& frame);
 
 /// Selects the tool, 0 for an unknown number. The position of its centre is unknown.
-void enter_robot_tool(RobotReading& reading, std::int32_t tool);
+void enter_robot_tool(RobotReading& reading, std::int32_t tool, const std::optional<Pose>& tcp_mm = {});
 
 /// Reads the comment of `line`: a FORCE comment, or the name of an operation if it is alone in its line.
 /// Throws `InputError` (ErrorKind::machine_or_force) for a malformed FORCE comment.

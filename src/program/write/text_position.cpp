@@ -156,6 +156,7 @@ WordNumber round_angle(const Move& move, std::size_t i, const TextPosition& befo
 TextPosition known_text_position(const Move& move, const TextPosition& before) {
   TextPosition position;
   position.orientation = before.orientation;
+  if (move.starts_uncorrected && move.orientation) position.orientation = move.orientation->start;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (move.starts_uncorrected)
       position[axis] = component(move.start_mm, axis);

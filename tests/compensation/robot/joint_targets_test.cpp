@@ -208,3 +208,26 @@ TEST_CASE("movel to joint values is corrected as the pose that they are") {
       read_program(head + "  movel(q2)\n" + tail, "part", {.dialect = "ur"}).left_alone.back().why;
   CHECK(unknown == "movel moves to joint positions, and where these are is not known");
 }
+
+TEST_CASE(
+    "a call, a relative line, other external axes, a very short line and a changed target leave no place") {
+  const std::string joints = "A1 0,A2 -78,A3 108,A4 0,A5 60,A6 0",
+                    line = "LIN {X 1850.0,Y 50.0,Z 601.0,A 0,B 0,C 0";
+  const auto knows_start = [&](const std::string& statements) {
+    const std::string text = "DEF part( )\n$VEL.CP=0.025\n" + statements + "END\n";
+    const Program program = read_program(text, "part", order_of("kuka", "").read);
+    return all_known(program.moves.back().known_start);
+  };
+  CHECK(knows_start("PTP {" + joints + ",E1 5}\n" + line + ",E1 5} C_DIS\n"));
+  CHECK(!knows_start("PTP {" + joints + ",E1 5}\n" + line + ",E1 6} C_DIS\n"));
+  CHECK(!knows_start("PTP {" + joints + "}\n" + line + ",E1 6} C_DIS\n"));
+  CHECK(!knows_start("PTP {" + joints + "}\nIF GOSAFE(1) THEN\nENDIF\n" + line + "} C_DIS\n"));
+  CHECK(!knows_start("PTP {" + joints + "}\ni=SUBI(3)\n" + line + "} C_DIS\n"));
+  CHECK(!knows_start("PTP {" + joints + "}\nLIN_REL {Z 5} C_DIS\n"));
+  CHECK(!knows_start("H={" + joints + "}\nH.A1=5\nPTP H\n" + line + "} C_DIS\n"));
+  const Program original = read_program("DEF part( )\nPTP {" + joints + "}\n" + line + "} C_DIS\nEND\n",
+                                        "part", order_of("kuka", "").read);
+  const Vector3 p = original.moves[0].start_mm;
+  CHECK(!knows_start("PTP {" + joints + "}\nLIN {X " +
+                     fmt::format("{:.3f},Y {:.3f},Z {:.3f}", p.x(), p.y(), p.z()) + ",A 0,B 0,C 0} C_DIS\n"));
+}

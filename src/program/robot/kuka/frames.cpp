@@ -52,10 +52,11 @@ ProgramFrame base_of(const KrlReading& r, Span value) {
   return {.work_offset = "$BASE", .pose_mm = named_pose(r, name)};
 }
 
-void select_tool(KrlReading& r, const std::string& name, bool is_constant) {
+void select_tool(KrlReading& r, const std::string& name, bool is_constant,
+                 const std::optional<Pose>& tcp_mm) {
   if (is_constant && r.tool == name) return;
   r.tool = name;
-  enter_robot_tool(r.robot, as_tool(index_of(name, "TOOL_DATA[").value_or(0)));
+  enter_robot_tool(r.robot, as_tool(index_of(name, "TOOL_DATA[").value_or(0)), tcp_mm);
 }
 
 /// The arguments of a call in upper case without blanks: "#CP_PARAMS", "0.2".
@@ -82,7 +83,8 @@ void select_frame_data(KrlReading& r) {
   const bool numbers = tool != nullptr && base != nullptr && tool->number && base->number;
   const auto number_of = [&](const KrlComponent& c) { return static_cast<long>(c.number->value); };
   const std::string name = numbers ? fmt::format("BASE_DATA[{}]", number_of(*base)) : krl_word(data);
-  select_tool(r, numbers ? fmt::format("TOOL_DATA[{}]", number_of(*tool)) : krl_word(data), true);
+  const std::string tool_name = numbers ? fmt::format("TOOL_DATA[{}]", number_of(*tool)) : krl_word(data);
+  select_tool(r, tool_name, true, named_pose(r, tool_name));
   enter_robot_frame(r.robot, {.work_offset = name, .pose_mm = named_pose(r, name)});
 }
 
@@ -101,8 +103,9 @@ void assign_krl_tool(KrlReading& r, const RobotLine&, Span value) {
   const std::string_view text = r.robot.program.text;
   const std::string name = krl_word(part(text, value));
   const auto aggregate = aggregate_at(text, value.begin, value.end);
-  const bool numbers = aggregate && pose_of(*aggregate);
-  select_tool(r, name, !in_body(r) && (numbers || index_of(name, "TOOL_DATA[")));
+  const std::optional<Pose> numbers = aggregate ? pose_of(*aggregate) : std::nullopt;
+  select_tool(r, name, !in_body(r) && (numbers || index_of(name, "TOOL_DATA[")),
+              numbers ? numbers : named_pose(r, name));
 }
 
 void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
@@ -110,7 +113,8 @@ void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
   if (arguments.empty()) return;
   const std::string& what = arguments.front();
   const std::string value = arguments.size() > 1 ? arguments[1] : "";
-  if (what == "#TOOL") select_tool(r, fmt::format("TOOL_DATA[{}]", value), !in_body(r));
+  const std::string name = fmt::format("TOOL_DATA[{}]", value);
+  if (what == "#TOOL") select_tool(r, name, !in_body(r), named_pose(r, name));
   if (what == "#BASE") {
     const std::string name = fmt::format("BASE_DATA[{}]", value);
     enter_robot_frame(r.robot, {.work_offset = name, .pose_mm = named_pose(r, name)});

@@ -151,7 +151,9 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
                   {.motion = Motion::rapid,
                    .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none}));
   const bool is_sure = aggregate && head == "PTP" && !in_body(r);
-  const bool stops = is_sure && !with_zone(r, statement, {.motion = Motion::rapid}).passes;
+  // A routine that was called may have changed a named target.
+  const bool is_known = is_sure && (statement.operands.front().aggregate || !r.has_called);
+  const bool stops = is_known && !with_zone(r, statement, {.motion = Motion::rapid}).passes;
   add_joint_move(r.robot, line, std::move(why), stops ? joints_of(*aggregate) : std::nullopt);
   if (is_sure) r.robot.state.external = external_of(*aggregate);
 }

@@ -38,7 +38,8 @@ constexpr auto motionless_calls =
     std::to_array<std::string_view>({"PULSE", "CWRITE", "CREAD", "SREAD", "SWRITE", "COPEN", "CCLOSE",
                                      "CIOCTL", "CAST_TO", "CAST_FROM", "VARSTATE", "MSG"});
 
-constexpr auto coordinates = std::to_array<std::string_view>({"X", "Y", "Z", "A", "B", "C"});
+constexpr auto coordinates = std::to_array<std::string_view>(
+    {"X", "Y", "Z", "A", "B", "C", "A1", "A2", "A3", "A4", "A5", "A6", "E1", "E2", "E3", "E4", "E5", "E6"});
 
 /// "P[3].X" without its last member; empty if that is not a coordinate.
 std::string_view target_of_coordinate(std::string_view variable) {
@@ -139,6 +140,7 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   if (is_one_of(krl_word(name), motionless_calls)) return;
   if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
   forget_position(r.robot);
+  r.has_called = true;
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));

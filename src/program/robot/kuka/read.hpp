@@ -31,6 +31,7 @@ struct KrlReading {
   std::vector<KrlLoop> loops{};    ///< over elements of these arrays
   std::size_t behind_loop = 0;     ///< the statements before this byte are those of a loop
   bool routine_ended = false;
+  bool has_called = false;  ///< a routine that may change variables was called
   bool in_data_list = false;
 };
 

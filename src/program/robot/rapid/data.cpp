@@ -235,10 +235,13 @@ RapidFrame rapid_tool(const RapidPlace& place, Span span) {
   RapidFrame tool{.name = rapid_word(part(place.text, span))};
   const RapidDatum* datum = datum_at(place, span);
   if (datum == nullptr && !is_name(place.text, span)) tool.why = "the tool is selected at run time";
+  if (datum == nullptr && tool.name == "TOOL0") tool.pose_mm = Pose{};
   if (datum == nullptr) return tool;
   tool.why = why_unknown(*datum, "tool");
   const Literal literal = literal_at(place, span);
-  if (literal.list && !literal.list->items.empty()) tool.held = flag_of(literal.text, literal.list->items[0]);
+  if (!literal.list || literal.list->items.empty()) return tool;
+  tool.held = flag_of(literal.text, literal.list->items[0]);
+  if (literal.list->items.size() > 1) tool.pose_mm = pose_of(literal.text, literal.list->items[1]);
   return tool;
 }
 

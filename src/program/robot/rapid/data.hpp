@@ -44,7 +44,7 @@ std::string rapid_zone_within(double radius_mm);
 /// A tool or a work object.
 struct RapidFrame {
   std::string name;
-  std::optional<Pose> pose_mm{};  ///< of a work object; empty if the module does not give it with numbers
+  std::optional<Pose> pose_mm{};  ///< empty if the module does not give it with numbers
   std::optional<bool> held{};     ///< by the robot, if the module states it
   std::string why;                ///< why moves with it are not followed
 };

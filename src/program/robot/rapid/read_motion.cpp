@@ -176,7 +176,7 @@ bool turns_little(const Move& move) {
 /// Enters the state of the motion: work object, tool, speed.
 void enter(RapidReading& r, const RapidStatement& statement, const MoveArguments& motion) {
   enter_robot_frame(r.robot, {.work_offset = motion.object.name, .pose_mm = motion.object.pose_mm});
-  if (r.tool != motion.tool.name) enter_robot_tool(r.robot, 0);
+  if (r.tool != motion.tool.name) enter_robot_tool(r.robot, 0, motion.tool.pose_mm);
   r.tool = motion.tool.name;
   r.robot.state.feed_mm_min = feed_of(r, statement, motion);
 }

@@ -29,7 +29,9 @@ struct UrTarget {
   std::optional<JointPlace> joints{};  ///< if all of its six numbers are known
 };
 
-Pose pose_of(const UrPose& pose) {
+}  // namespace
+
+Pose ur_pose_mm(const UrPose& pose) {
   Pose X;
   OrientationNumbers vector{};
   for (std::size_t i = 0; i < 3; ++i) {
@@ -39,6 +41,8 @@ Pose pose_of(const UrPose& pose) {
   X.R = rotation_of(OrientationForm::rotation_vector, vector);
   return X;
 }
+
+namespace {
 
 UrTarget target_of(const UrPose& pose) {
   UrTarget target{.kind = TargetKind::pose};
@@ -60,7 +64,7 @@ UrTarget target_in_frame(const UrReading& r, const UrCall& call) {
   UrTarget target = target_at(r, call.arguments[1].value);
   if (!frame || target.kind != TargetKind::pose || target.frame != ProgramFrame{}) return {};
   const std::string_view name = ur_pose(text, ref) ? "pose_trans" : part(text, ref);
-  target.frame = {.work_offset = std::string(name), .pose_mm = pose_of(*frame)};
+  target.frame = {.work_offset = std::string(name), .pose_mm = ur_pose_mm(*frame)};
   return target;
 }
 

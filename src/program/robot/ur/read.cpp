@@ -82,15 +82,17 @@ void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
 void select_tool(UrReading& r, const UrCall& call) {
   const std::string_view text = r.robot.program.text;
   std::string pose;
+  std::optional<UrPose> tcp;
   bool is_constant = false;
   if (!call.arguments.empty()) {
     const Span value = ur_resolved(text, r.names, call.arguments.front().value);
     pose = part(text, value);
-    is_constant = ur_pose(text, value).has_value() && !in_body(r);
+    tcp = ur_pose(text, value);
+    is_constant = tcp && !in_body(r);
   }
   if (is_constant && r.tool == pose) return;
   r.tool = is_constant ? pose : "";
-  enter_robot_tool(r.robot, 0);
+  enter_robot_tool(r.robot, 0, is_constant ? std::optional(ur_pose_mm(*tcp)) : std::nullopt);
 }
 
 void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {

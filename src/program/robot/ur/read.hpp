@@ -18,6 +18,9 @@ struct UrReading {
 /// Reads the statement of `line`. Throws `InputError` with line and column.
 void read_ur_statement(UrReading& reading, const RobotLine& line);
 
+/// The pose in mm.
+Pose ur_pose_mm(const UrPose& pose);
+
 /// movej, movel, movep, movec.
 void read_ur_motion(UrReading& reading, const RobotLine& line, const UrCall& call);
 

@@ -1,116 +1,23 @@
-// Programs of KUKA robots: reading, and writing of corrected targets.
+// Programs of KUKA robots: writing of corrected targets.
 #include <doctest/doctest.h>
-
-#include <cstdio>
-#include <cstdlib>
-#include <filesystem>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/program/program_reader.hpp"
-#include "program/reading.hpp"
+#include "program/robot/kuka/kuka.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
 
-namespace {
-
-Program read_krl(const std::string& text) {
-  return read_program(text, "job.src", {});
-}
-
-/// The statements in a routine, which begin in line 2.
-Program read_statements(const std::string& statements) {
-  return read_krl("DEF job()\n" + statements + "END\n");
-}
-
-/// The refusal of `statements`; "none" if they are read.
-std::string refusal_of(const std::string& statements) {
-  return diagnostic_of([&] { read_statements(statements); });
-}
-
-MoveEdit edit_of(const Program& program, std::size_t move) {
-  const Move& m = program.moves[move];
-  MoveEdit edit{.move = move, .end_mm = m.end_mm};
-  if (m.orientation) edit.orientation = m.orientation->end;
-  if (m.arc) edit.centre_mm = m.arc->centre_mm;
-  return edit;
-}
-
-std::vector<MoveEdit> edits_of(const Program& program) {
-  std::vector<MoveEdit> edits;
-  for (std::size_t m = 0; m < program.moves.size(); ++m) edits.push_back(edit_of(program, m));
-  return edits;
-}
-
-const std::string milling =
-    "&ACCESS RVO1\n"
-    "&COMMENT made by hand\n"
-    "DEF job( )\n"
-    ";-- POCKET\n"
-    "$BASE={X 100.0,Y 0.0,Z 0.0,A 90.0,B 0.0,C 0.0}\n"
-    "$TOOL=TOOL_DATA[5]\n"
-    "PTP {A1 0.0,A2 -90.0,A3 90.0,A4 0.0,A5 90.0,A6 0.0,E1 850.0}\n"
-    "PTP {X 10.0,Y 20.0,Z 30.0,A 40.0,B -0.000,C 180.0,S 2,T 10,E1 850.0}\n"
-    "$VEL.CP = 0.05\n"
-    "LIN {X 10.0,Y 20.0,Z -1.5,A 40.0,B -0.000,C 180.0,E1 850.0} C_DIS ;down\n"
-    "lin {x 60,y 20,z -1.5,a 50,b 0,c 180,e1 850} c_dis\n"
-    "END\n";
-
-}  // namespace
-
-TEST_CASE("the targets of LIN and PTP are read with their orientations, base, tool and feed") {
-  const Program program = read_krl(milling);
-  CHECK(program.dialect == "kuka");
-  REQUIRE(program.moves.size() == 3);
-  REQUIRE(program.left_alone.size() == 1);
-  CHECK(program.left_alone[0].line == 7);
-  CHECK(program.left_alone[0].machine_position);
-  const Move &rapid = program.moves[0], &down = program.moves[1], &across = program.moves[2];
-  CHECK(rapid.motion == Motion::rapid);
-  CHECK(rapid.line == 8);
-  CHECK(!rapid.known_start[0]);
-  CHECK(all_known(rapid.known_end));
-  CHECK(!rapid.may_split);
-  CHECK(!rapid.may_jump);
-  CHECK(down.motion == Motion::feed);
-  CHECK(down.start_mm == Vector3(10, 20, 30));
-  CHECK(down.end_mm == Vector3(10, 20, -1.5));
-  CHECK(down.feed_mm_min == doctest::Approx(3000));
-  CHECK(down.tool == 5);
-  CHECK(down.may_split);
-  CHECK(down.may_jump);
-  CHECK(down.may_insert_words);
-  CHECK(program.operations[down.operation] == "POCKET");
-  CHECK(across.orientation->form == OrientationForm::fixed_axes);
-  CHECK(!across.orientation->by_angles);
-  CHECK(across.orientation->start == OrientationNumbers{180, 0, 40});
-  CHECK(across.orientation->end == OrientationNumbers{180, 0, 50});
-  const ProgramFrame& base = program.frames[across.frame];
-  CHECK(base.work_offset == "$BASE");
-  REQUIRE(base.pose_mm.has_value());
-  CHECK(base.pose_mm->p == Vector3(100, 0, 0));
-  CHECK((*base.pose_mm * Vector3(1, 0, 0) - Vector3(100, 1, 0)).norm() < 1e-12);
-}
-
-TEST_CASE("A, B and C of KRL turn about Z, Y and X") {
-  const Program program = read_statements("LIN {X 1,Y 2,Z 3,A 90,B 0,C 90}\n");
-  const Matrix3 R = turn_of(*program.moves[0].orientation).end;
-  // Rz(90) Rx(90): X goes to Y, Y to Z, Z to X.
-  CHECK((R * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-12);
-  CHECK((R * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-12);
-  CHECK((R * Vector3::UnitZ() - Vector3::UnitX()).norm() < 1e-12);
-}
-
 TEST_CASE("a program whose targets do not change keeps every byte") {
   for (const std::string& text : {milling, std::string("DEF a()\r\nLIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\r\nEND")}) {
     const Program program = read_krl(text);
-    CHECK(rewrite(program, edits_of(program), {}).text == text);
+    CHECK(rewrite(program, robot_edits(program), {}).text == text);
   }
 }
 
 TEST_CASE("changed numbers keep their digits, at least three of a length and four of an angle") {
   const Program program = read_krl(milling);
-  MoveEdit rapid = edit_of(program, 0), down = edit_of(program, 1), across = edit_of(program, 2);
+  MoveEdit rapid = robot_edit(program, 0), down = robot_edit(program, 1), across = robot_edit(program, 2);
   rapid.end_mm += Vector3(0.01, 0, 0);
   down.end_mm += Vector3(0.01234, 0, -0.0004);
   down.orientation = OrientationNumbers{179.98, 0.00003, 40.00006};
@@ -130,7 +37,7 @@ TEST_CASE("changed numbers keep their digits, at least three of a length and fou
 
 TEST_CASE("inserted points are copies of the statement without its comment") {
   const Program program = read_krl(milling);
-  MoveEdit down = edit_of(program, 1), across = edit_of(program, 2);
+  MoveEdit down = robot_edit(program, 1), across = robot_edit(program, 2);
   down.inserted = {{{10, 20.01, 10}, {}, OrientationNumbers{180, 0, 40}}};
   across.jump = Via{{10.02, 20, -1.5}, {}, OrientationNumbers{180, 0, 40}};
   across.inserted = {{{35, 20, -1.499}, {}, OrientationNumbers{180, 0, 45.5}}};
@@ -156,7 +63,7 @@ TEST_CASE(
   CHECK(program.moves[1].end_mm == Vector3(1, 2, -1.5));
   CHECK(program.moves[2].end_mm == Vector3(1, 7, -1.5));
   CHECK(program.moves[2].orientation->end == OrientationNumbers{30, 20, 10});
-  MoveEdit down = edit_of(program, 1), across = edit_of(program, 2);
+  MoveEdit down = robot_edit(program, 1), across = robot_edit(program, 2);
   down.end_mm = {1.01, 2, -1.49};
   down.orientation = OrientationNumbers{30, 20.01, 10};
   across.end_mm = {1.01, 7, -1.485};
@@ -173,26 +80,10 @@ TEST_CASE(
 
 TEST_CASE("a number whose sign separates it from its name gets a blank if it loses the sign") {
   const Program program = read_statements("LIN {X-0.5,Y-2,Z 3,A 0,B-0.000,C 0}\n");
-  MoveEdit edit = edit_of(program, 0);
+  MoveEdit edit = robot_edit(program, 0);
   edit.end_mm = {0.25, -2.5, 3};
   edit.orientation = OrientationNumbers{0, 0.01, 0};
   CHECK(rewrite(program, {edit}, {}).text == "DEF job()\nLIN {X 0.25,Y-2.5,Z 3,A 0,B 0.010,C 0}\nEND\n");
-}
-
-TEST_CASE("a position is known only with its orientation") {
-  const Program program = read_statements(
-      "LIN {X 1,Y 2,Z 3}\n"
-      "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n"
-      "LIN {X 5}\n"
-      "PTP {A1 5}\n"
-      "LIN {X 5}\n");
-  REQUIRE(program.moves.size() == 4);
-  CHECK(!program.moves[0].known_end[0]);
-  CHECK(!program.moves[1].known_start[0]);
-  CHECK(all_known(program.moves[1].known_end));
-  CHECK(all_known(program.moves[2].known_start));
-  CHECK(!program.moves[3].known_start[0]);
-  CHECK(!program.moves[3].known_end[0]);
 }
 
 TEST_CASE("an orientation is known where one target has all of its angles") {
@@ -204,7 +95,7 @@ TEST_CASE("an orientation is known where one target has all of its angles") {
   CHECK(!program.moves[1].orientation);
   CHECK(!program.moves[2].known_end[0]);
   CHECK(all_known(program.moves[3].known_end));
-  CHECK(rewrite(program, edits_of(program), {}).text == program.text);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
 }
 
 TEST_CASE("LIN_REL moves by differences and keeps the orientation") {
@@ -220,8 +111,8 @@ TEST_CASE("LIN_REL moves by differences and keeps the orientation") {
   CHECK(program.moves[3].fixed[0]);
   REQUIRE(program.left_alone.size() == 1);
   CHECK(program.left_alone[0].line == 5);
-  CHECK(rewrite(program, edits_of(program), {}).text == program.text);
-  MoveEdit start = edit_of(program, 0), down = edit_of(program, 1), across = edit_of(program, 2);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
+  MoveEdit start = robot_edit(program, 0), down = robot_edit(program, 1), across = robot_edit(program, 2);
   start.end_mm = {1, 2, 3.02};
   down.end_mm = {1.01, 2, 1.5};
   down.inserted = {{{1.004, 2, 2}, {}, down.orientation}};
@@ -250,14 +141,14 @@ TEST_CASE("CIRC is an arc through its auxiliary point in any plane") {
   CHECK((circle.arc->centre_mm - circle.end_mm).norm() == doctest::Approx(radius));
   CHECK((circle.arc->centre_mm - circle.arc->through->p_mm).norm() == doctest::Approx(radius));
   CHECK(std::abs(normal_of(*circle.arc).dot(Vector3(6, 0, 8))) < 1e-12);
-  CHECK(rewrite(program, edits_of(program), {}).text == program.text);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
 }
 
 TEST_CASE("a corrected CIRC is read back as the curve that was written") {
   const Program program = read_statements(
       "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
       "CIRC {X 0.0,Y 10.0,Z 0.0,A 0,B 0,C 0}, {X -10.0,Y 0.0,Z 0.0,A 0,B 0,C 0} C_DIS\n");
-  MoveEdit start = edit_of(program, 0), circle = edit_of(program, 1);
+  MoveEdit start = robot_edit(program, 0), circle = robot_edit(program, 1);
   start.end_mm = {10.02, 0.01, 0.005};
   circle.end_mm = {-9.99, 0.01, 0.031};
   circle.centre_mm = Vector3(0.015, 0.02, 0.005);
@@ -284,7 +175,7 @@ TEST_CASE("a CIRC is split into arcs, or into lines where it has no centre") {
       "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
       "$VEL.CP=1\n"
       "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0} C_DIS\n");
-  MoveEdit circle = edit_of(program, 1);
+  MoveEdit circle = robot_edit(program, 1);
   circle.inserted = {{{0, 10, 0}, Vector3(0, 0, 0), circle.orientation}};
   CHECK(rewrite(program, {circle}, {}).text ==
         "DEF job()\n"
@@ -304,22 +195,6 @@ TEST_CASE("a CIRC is split into arcs, or into lines where it has no centre") {
         "END\n");
 }
 
-TEST_CASE("a CIRC whose circle is not known is not followed, and is listed once") {
-  const Program program = read_statements(
-      "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n"
-      "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "CIRC {X 0,Y 0,Z 0}, {X -10,Y 0,Z 0} C_DIS\n"
-      "LIN {X 5}\n");
-  REQUIRE(program.moves.size() == 4);
-  CHECK(program.moves[0].fixed[0]);
-  CHECK(program.moves[2].fixed[0]);
-  CHECK(!program.moves[3].known_start[0]);
-  REQUIRE(program.left_alone.size() == 3);
-  CHECK(program.left_alone[0].line == 2);
-  CHECK(program.left_alone[1].line == 4);
-  CHECK(program.left_alone[2].line == 5);
-}
-
 TEST_CASE("full turns by CA are shifted as a whole, other angles are not followed") {
   const Program program = read_statements(
       "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
@@ -329,7 +204,7 @@ TEST_CASE("full turns by CA are shifted as a whole, other angles are not followe
   CHECK(program.moves[1].handling == Handling::held);
   CHECK(program.moves[1].end_mm == Vector3(10, 0, 0));
   CHECK(program.moves[2].fixed[0]);
-  MoveEdit turn = edit_of(program, 1);
+  MoveEdit turn = robot_edit(program, 1);
   turn.end_mm = {10.01, 0, -0.0004};
   CHECK(rewrite(program, {turn}, {}).text ==
         "DEF job()\n"
@@ -337,46 +212,6 @@ TEST_CASE("full turns by CA are shifted as a whole, other angles are not followe
         "CIRC {X 0.01,Y 10,Z 0}, {X -9.99,Y 0,Z 0}, CA 360\n"
         "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0}, CA 90 C_DIS\n"
         "END\n");
-}
-
-TEST_CASE("a line that stops at its target, or whose external axes move, is not split") {
-  const Program program = read_statements(
-      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0,E1 0}\n"
-      "LIN {X 1,E1 0}\n"
-      "LIN {X 2,E1 5} C_DIS\n"
-      "LIN {X 3,E1 5} C_DIS\n");
-  CHECK(program.moves[1].exact_stop);
-  CHECK(!program.moves[1].may_split);
-  CHECK(!program.moves[2].exact_stop);
-  CHECK(!program.moves[2].may_split);
-  CHECK(program.moves[3].may_split);
-  REQUIRE(program.external_axes_move);
-  CHECK(program.external_axes_move->line == program.moves[2].line);
-  CHECK(program.external_axes_move->what.find("from 0 to 5") != std::string::npos);
-}
-
-TEST_CASE("the program gives its external axes with their first lines, also from a joint target before it") {
-  const Program program = read_statements(
-      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
-      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n"
-      "LIN {X 2,E2 -30} C_DIS\n");
-  REQUIRE(program.external_axes[0]);
-  CHECK(program.external_axes[0]->value == 850);
-  CHECK(program.external_axes[0]->line == program.moves[0].line);
-  REQUIRE(program.external_axes[1]);
-  CHECK(program.external_axes[1]->value == -30);
-  CHECK(!program.external_axes[2]);
-  CHECK(!program.external_axes_move);
-}
-
-TEST_CASE(
-    "an external axis that a joint target moves has moved, though the targets after it do not have it") {
-  const Program program = read_statements(
-      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0,E1 0}\n"
-      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
-      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n");
-  REQUIRE(program.external_axes_move);
-  CHECK(program.external_axes_move->line == program.moves[1].line);
 }
 
 TEST_CASE("a named target is changed where it is declared, or in the moves if several use it") {
@@ -395,8 +230,8 @@ TEST_CASE("a named target is changed where it is declared, or in the moves if se
   CHECK(program.moves[0].end_mm == Vector3(0, 0, 5));
   CHECK(program.moves[1].end_mm == Vector3(10, 0, 5));
   CHECK(program.moves[4].end_mm == Vector3(20, 0, 5));
-  CHECK(rewrite(program, edits_of(program), {}).text == program.text);
-  std::vector<MoveEdit> edits = edits_of(program);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
+  std::vector<MoveEdit> edits = robot_edits(program);
   edits[0].end_mm.x() = 0.01;
   edits[3].end_mm.x() = 10.02;
   edits[3].inserted = {{{12, 0, 5}, {}, edits[3].orientation}};
@@ -414,7 +249,7 @@ TEST_CASE("a named target is changed where it is declared, or in the moves if se
         "LIN once\n"
         "once.X=3\n"
         "END\n");
-  edits = edits_of(program);
+  edits = robot_edits(program);
   edits[4].end_mm = {20.01, 0, 5.01};
   const std::string text = rewrite(program, edits, {}).text;
   CHECK(text.find("LIN {X 20.01,Y 0,Z 5.010}\n") != std::string::npos);
@@ -427,7 +262,7 @@ TEST_CASE("angles at the poles and near a full turn keep their numbers") {
       "LIN {X 5,Y 0,Z 0,A 359.999,B -90.0,C 20} C_DIS\n"
       "LIN {X 9,Y 0,Z 0,A 0.001,B 0,C 0} C_DIS\n"
       "LIN {X 9.5,Y 0,Z 0,A 1.5E-3,B 0,C 0}\n");
-  CHECK(rewrite(program, edits_of(program), {}).text == program.text);
+  CHECK(rewrite(program, robot_edits(program), {}).text == program.text);
   for (const Move& move : program.moves) {
     CAPTURE(move.line);
     const MoveOrientation& o = *move.orientation;
@@ -440,29 +275,12 @@ TEST_CASE("angles at the poles and near a full turn keep their numbers") {
   CHECK(rotation_between(turn_of(wrap).end, turn_of(wrap).start).norm() * 180 / 3.14159265358979 ==
         doctest::Approx(0.002));
   CHECK(numbers_at(wrap, 0.5)[2] == doctest::Approx(360).epsilon(1e-9));
-  std::vector<MoveEdit> edits = edits_of(program);
+  std::vector<MoveEdit> edits = robot_edits(program);
   edits[1].orientation = OrientationNumbers{20, -89.99, 360.0005};
   edits[3].orientation = OrientationNumbers{0, 0, 0.0021};
   const std::string text = rewrite(program, edits, {}).text;
   CHECK(text.find("A 360.0005,B -89.99,C 20}") != std::string::npos);
   CHECK(text.find("A 0.0021,B 0,C 0}") != std::string::npos);
-}
-
-TEST_CASE("forces and operations are read from comments, folds are not operations") {
-  const Program program = read_statements(
-      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
-      ";FOLD LIN P1 CONT Vel=0.1 m/s CPDAT1 Tool[1] Base[0];%{PE}\n"
-      "; FORCE FX=215 FY=-10 FZ=-25 MX=1 MY=21.5\n"
-      "LIN {X 5} C_DIS\n"
-      ";ENDFOLD\n"
-      "; SLOT 2\n"
-      "LIN {X 6} C_DIS ; FORCE OFF\n");
-  REQUIRE(program.moves.size() == 3);
-  REQUIRE(program.moves[1].force.has_value());
-  CHECK((*program.moves[1].force)[0] == 215);
-  CHECK(program.operations[program.moves[1].operation] == "");
-  CHECK(!program.moves[2].force);
-  CHECK(program.operations[program.moves[2].operation] == "SLOT 2");
 }
 
 TEST_CASE("the header follows DEF, in comments with the line end of the file") {
@@ -474,7 +292,7 @@ TEST_CASE("the header follows DEF, in comments with the line end of the file") {
   REQUIRE(program.remarks.size() == 1);
   CHECK(program.remarks[0].line == 6);
   CHECK(!is_corrected(program));
-  MoveEdit edit = edit_of(program, 1);
+  MoveEdit edit = robot_edit(program, 1);
   edit.inserted = {{{2.5, 0.01, 0}, {}, edit.orientation}};
   const std::string out = rewrite(program, {edit}, {.header = {"COUNTERFLEX 1", "second\tline"}}).text;
   CHECK(out ==
@@ -483,79 +301,4 @@ TEST_CASE("the header follows DEF, in comments with the line end of the file") {
         "LIN {X 2.5,Y 0.010} C_DIS\r\nLIN {X 5,Y 0.000} C_DIS\r\nEND\r\n"
         "DEF other()\r\nLIN {X 5}\r\nEND\r\n");
   CHECK(is_corrected(read_krl(out)));
-}
-
-TEST_CASE("bases, tools and speeds of KRL and of BAS are followed") {
-  const Program program = read_statements(
-      "BASE_DATA[3]={X 1,Y 2,Z 3,A 0,B 0,C 0}\n"
-      "$BASE=BASE_DATA[3]\n"
-      "$TOOL = TOOL_DATA[ 4 ]\n"
-      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "$base = base_data[3]\n"
-      "BAS (#VEL_CP,0.5)\n"
-      "LIN {X 5}\n"
-      "FDAT_ACT={TOOL_NO 7,BASE_NO 2,IPO_FRAME #BASE}\n"
-      "BAS(#CP_PARAMS,2)\n"
-      "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "$BASE=$WORLD:offset\n"
-      "$VEL.CP=speed\n"
-      "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n");
-  REQUIRE(program.moves.size() == 4);
-  const auto frame = [&](std::size_t m) { return program.frames[program.moves[m].frame]; };
-  CHECK(frame(0).work_offset == "BASE_DATA[3]");
-  CHECK(frame(0).pose_mm->p == Vector3(1, 2, 3));
-  CHECK(program.moves[0].tool == 4);
-  CHECK(all_known(program.moves[1].known_start));
-  CHECK(program.moves[1].frame == program.moves[0].frame);
-  CHECK(program.moves[1].feed_mm_min == 30000);
-  CHECK(frame(2).work_offset == "BASE_DATA[2]");
-  CHECK(!frame(2).pose_mm);
-  CHECK(program.moves[2].tool == 7);
-  CHECK(program.moves[2].feed_mm_min == 120000);
-  CHECK(!program.moves[2].known_start[0]);
-  CHECK(frame(3).work_offset == "$BASE");
-  CHECK(!frame(3).pose_mm);
-  CHECK(!program.moves[3].known_start[0]);
-  CHECK(program.moves[3].feed_mm_min == 0);
-}
-
-TEST_CASE("what is computed at run time is left alone or refused with its line") {
-  const Program program = read_statements(
-      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "LIN {X depth,Y 0,Z 0}\n"
-      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "LIN P1:{Z 5}\n"
-      "PTP XHOME\n"
-      "FOR i=1 TO 3\n"
-      "  LIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "ENDFOR\n");
-  REQUIRE(program.moves.size() == 5);
-  CHECK(program.moves[1].fixed[0]);
-  CHECK(!program.moves[2].known_start[0]);
-  CHECK(all_known(program.moves[2].known_end));
-  CHECK(program.moves[3].fixed[0]);
-  CHECK(program.moves[4].fixed[0]);
-  REQUIRE(program.left_alone.size() == 4);
-  CHECK(program.left_alone[0].line == 3);
-  CHECK(program.left_alone[1].line == 5);
-  CHECK(program.left_alone[2].line == 6);
-  CHECK(program.left_alone[3].line == 8);
-  CHECK(
-      refusal_of("LIN P1 C_DIS\n") ==
-      "job.src:2:5: error: the target 'P1' of LIN is neither in this file nor in a data list; give the list "
-      "that has it with --data FILE.dat");
-  CHECK(refusal_of("FOR i=1 TO 9\nP[i].A=-30\nLIN P[i]\nENDFOR\n")
-            .starts_with("job.src:3:1: error: 'P[i].A' is computed at run time"));
-}
-
-TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
-  CHECK(refusal_of("\nSPLINE\n  SPL P1\nENDSPLINE\n").starts_with("job.src:3:1: error: SPLINE is a spline"));
-  CHECK(refusal_of("SLIN {X 1}\n").starts_with("job.src:2:1: error: SLIN is a spline motion"));
-  CHECK(refusal_of("GOTO again\n").starts_with("job.src:2:1: error: GOTO is not supported"));
-  CHECK(refusal_of("$IPO_MODE=#TCP\n").starts_with("job.src:2:1: error: $IPO_MODE=#TCP moves the workpiece"));
-  CHECK(refusal_of("$BASE.X = 5\n").starts_with("job.src:2:1: error: '$BASE.X' changes one number"));
-  CHECK(refusal_of("<<<<<<< HEAD\n").starts_with("job.src:2:1: error: '<<<<<<<' is a conflict marker"));
-  CHECK(diagnostic_of([] {
-          read_krl("DEFDAT job\nENDDAT\n");
-        }).starts_with("job.src:1:1: error: this is a data list"));
 }

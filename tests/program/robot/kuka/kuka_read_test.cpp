@@ -1,0 +1,225 @@
+// Programs of KUKA robots: reading.
+#include <doctest/doctest.h>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/program/program_reader.hpp"
+#include "program/robot/kuka/kuka.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+/// The refusal of `statements`; "none" if they are read.
+std::string refusal_of(const std::string& statements) {
+  return diagnostic_of([&] { read_statements(statements); });
+}
+
+}  // namespace
+
+TEST_CASE("the targets of LIN and PTP are read with their orientations, base, tool and feed") {
+  const Program program = read_krl(milling);
+  CHECK(program.dialect == "kuka");
+  REQUIRE(program.moves.size() == 3);
+  REQUIRE(program.left_alone.size() == 1);
+  CHECK(program.left_alone[0].line == 7);
+  CHECK(program.left_alone[0].machine_position);
+  const Move &rapid = program.moves[0], &down = program.moves[1], &across = program.moves[2];
+  CHECK(rapid.motion == Motion::rapid);
+  CHECK(rapid.line == 8);
+  CHECK(!rapid.known_start[0]);
+  CHECK(all_known(rapid.known_end));
+  CHECK(!rapid.may_split);
+  CHECK(!rapid.may_jump);
+  CHECK(down.motion == Motion::feed);
+  CHECK(down.start_mm == Vector3(10, 20, 30));
+  CHECK(down.end_mm == Vector3(10, 20, -1.5));
+  CHECK(down.feed_mm_min == doctest::Approx(3000));
+  CHECK(down.tool == 5);
+  CHECK(down.may_split);
+  CHECK(down.may_jump);
+  CHECK(down.may_insert_words);
+  CHECK(program.operations[down.operation] == "POCKET");
+  CHECK(across.orientation->form == OrientationForm::fixed_axes);
+  CHECK(!across.orientation->by_angles);
+  CHECK(across.orientation->start == OrientationNumbers{180, 0, 40});
+  CHECK(across.orientation->end == OrientationNumbers{180, 0, 50});
+  const ProgramFrame& base = program.frames[across.frame];
+  CHECK(base.work_offset == "$BASE");
+  REQUIRE(base.pose_mm.has_value());
+  CHECK(base.pose_mm->p == Vector3(100, 0, 0));
+  CHECK((*base.pose_mm * Vector3(1, 0, 0) - Vector3(100, 1, 0)).norm() < 1e-12);
+}
+
+TEST_CASE("A, B and C of KRL turn about Z, Y and X") {
+  const Program program = read_statements("LIN {X 1,Y 2,Z 3,A 90,B 0,C 90}\n");
+  const Matrix3 R = turn_of(*program.moves[0].orientation).end;
+  // Rz(90) Rx(90): X goes to Y, Y to Z, Z to X.
+  CHECK((R * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitZ() - Vector3::UnitX()).norm() < 1e-12);
+}
+
+TEST_CASE("a position is known only with its orientation") {
+  const Program program = read_statements(
+      "LIN {X 1,Y 2,Z 3}\n"
+      "LIN {X 1,Y 2,Z 3,A 0,B 0,C 0}\n"
+      "LIN {X 5}\n"
+      "PTP {A1 5}\n"
+      "LIN {X 5}\n");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(!program.moves[0].known_end[0]);
+  CHECK(!program.moves[1].known_start[0]);
+  CHECK(all_known(program.moves[1].known_end));
+  CHECK(all_known(program.moves[2].known_start));
+  CHECK(!program.moves[3].known_start[0]);
+  CHECK(!program.moves[3].known_end[0]);
+}
+
+TEST_CASE("a CIRC whose circle is not known is not followed, and is listed once") {
+  const Program program = read_statements(
+      "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n"
+      "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "CIRC {X 0,Y 0,Z 0}, {X -10,Y 0,Z 0} C_DIS\n"
+      "LIN {X 5}\n");
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[0].fixed[0]);
+  CHECK(program.moves[2].fixed[0]);
+  CHECK(!program.moves[3].known_start[0]);
+  REQUIRE(program.left_alone.size() == 3);
+  CHECK(program.left_alone[0].line == 2);
+  CHECK(program.left_alone[1].line == 4);
+  CHECK(program.left_alone[2].line == 5);
+}
+
+TEST_CASE("a line that stops at its target, or whose external axes move, is not split") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0,E1 0}\n"
+      "LIN {X 1,E1 0}\n"
+      "LIN {X 2,E1 5} C_DIS\n"
+      "LIN {X 3,E1 5} C_DIS\n");
+  CHECK(program.moves[1].exact_stop);
+  CHECK(!program.moves[1].may_split);
+  CHECK(!program.moves[2].exact_stop);
+  CHECK(!program.moves[2].may_split);
+  CHECK(program.moves[3].may_split);
+  REQUIRE(program.external_axes_move);
+  CHECK(program.external_axes_move->line == program.moves[2].line);
+  CHECK(program.external_axes_move->what.find("from 0 to 5") != std::string::npos);
+}
+
+TEST_CASE("the program gives its external axes with their first lines, also from a joint target before it") {
+  const Program program = read_statements(
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
+      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n"
+      "LIN {X 2,E2 -30} C_DIS\n");
+  REQUIRE(program.external_axes[0]);
+  CHECK(program.external_axes[0]->value == 850);
+  CHECK(program.external_axes[0]->line == program.moves[0].line);
+  REQUIRE(program.external_axes[1]);
+  CHECK(program.external_axes[1]->value == -30);
+  CHECK(!program.external_axes[2]);
+  CHECK(!program.external_axes_move);
+}
+
+TEST_CASE(
+    "an external axis that a joint target moves has moved, though the targets after it do not have it") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0,E1 0}\n"
+      "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
+      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n");
+  REQUIRE(program.external_axes_move);
+  CHECK(program.external_axes_move->line == program.moves[1].line);
+}
+
+TEST_CASE("forces and operations are read from comments, folds are not operations") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
+      ";FOLD LIN P1 CONT Vel=0.1 m/s CPDAT1 Tool[1] Base[0];%{PE}\n"
+      "; FORCE FX=215 FY=-10 FZ=-25 MX=1 MY=21.5\n"
+      "LIN {X 5} C_DIS\n"
+      ";ENDFOLD\n"
+      "; SLOT 2\n"
+      "LIN {X 6} C_DIS ; FORCE OFF\n");
+  REQUIRE(program.moves.size() == 3);
+  REQUIRE(program.moves[1].force.has_value());
+  CHECK((*program.moves[1].force)[0] == 215);
+  CHECK(program.operations[program.moves[1].operation] == "");
+  CHECK(!program.moves[2].force);
+  CHECK(program.operations[program.moves[2].operation] == "SLOT 2");
+}
+
+TEST_CASE("bases, tools and speeds of KRL and of BAS are followed") {
+  const Program program = read_statements(
+      "BASE_DATA[3]={X 1,Y 2,Z 3,A 0,B 0,C 0}\n"
+      "$BASE=BASE_DATA[3]\n"
+      "$TOOL = TOOL_DATA[ 4 ]\n"
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "$base = base_data[3]\n"
+      "BAS (#VEL_CP,0.5)\n"
+      "LIN {X 5}\n"
+      "FDAT_ACT={TOOL_NO 7,BASE_NO 2,IPO_FRAME #BASE}\n"
+      "BAS(#CP_PARAMS,2)\n"
+      "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "$BASE=$WORLD:offset\n"
+      "$VEL.CP=speed\n"
+      "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n");
+  REQUIRE(program.moves.size() == 4);
+  const auto frame = [&](std::size_t m) { return program.frames[program.moves[m].frame]; };
+  CHECK(frame(0).work_offset == "BASE_DATA[3]");
+  CHECK(frame(0).pose_mm->p == Vector3(1, 2, 3));
+  CHECK(program.moves[0].tool == 4);
+  CHECK(all_known(program.moves[1].known_start));
+  CHECK(program.moves[1].frame == program.moves[0].frame);
+  CHECK(program.moves[1].feed_mm_min == 30000);
+  CHECK(frame(2).work_offset == "BASE_DATA[2]");
+  CHECK(!frame(2).pose_mm);
+  CHECK(program.moves[2].tool == 7);
+  CHECK(program.moves[2].feed_mm_min == 120000);
+  CHECK(!program.moves[2].known_start[0]);
+  CHECK(frame(3).work_offset == "$BASE");
+  CHECK(!frame(3).pose_mm);
+  CHECK(!program.moves[3].known_start[0]);
+  CHECK(program.moves[3].feed_mm_min == 0);
+}
+
+TEST_CASE("what is computed at run time is left alone or refused with its line") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "LIN {X depth,Y 0,Z 0}\n"
+      "LIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "LIN P1:{Z 5}\n"
+      "PTP XHOME\n"
+      "FOR i=1 TO 3\n"
+      "  LIN {X 1,Y 0,Z 0,A 0,B 0,C 0}\n"
+      "ENDFOR\n");
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[1].fixed[0]);
+  CHECK(!program.moves[2].known_start[0]);
+  CHECK(all_known(program.moves[2].known_end));
+  CHECK(program.moves[3].fixed[0]);
+  CHECK(program.moves[4].fixed[0]);
+  REQUIRE(program.left_alone.size() == 4);
+  CHECK(program.left_alone[0].line == 3);
+  CHECK(program.left_alone[1].line == 5);
+  CHECK(program.left_alone[2].line == 6);
+  CHECK(program.left_alone[3].line == 8);
+  CHECK(
+      refusal_of("LIN P1 C_DIS\n") ==
+      "job.src:2:5: error: the target 'P1' of LIN is neither in this file nor in a data list; give the list "
+      "that has it with --data FILE.dat");
+  CHECK(refusal_of("FOR i=1 TO 9\nP[i].A=-30\nLIN P[i]\nENDFOR\n")
+            .starts_with("job.src:3:1: error: 'P[i].A' is computed at run time"));
+}
+
+TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
+  CHECK(refusal_of("\nSPLINE\n  SPL P1\nENDSPLINE\n").starts_with("job.src:3:1: error: SPLINE is a spline"));
+  CHECK(refusal_of("SLIN {X 1}\n").starts_with("job.src:2:1: error: SLIN is a spline motion"));
+  CHECK(refusal_of("GOTO again\n").starts_with("job.src:2:1: error: GOTO is not supported"));
+  CHECK(refusal_of("$IPO_MODE=#TCP\n").starts_with("job.src:2:1: error: $IPO_MODE=#TCP moves the workpiece"));
+  CHECK(refusal_of("$BASE.X = 5\n").starts_with("job.src:2:1: error: '$BASE.X' changes one number"));
+  CHECK(refusal_of("<<<<<<< HEAD\n").starts_with("job.src:2:1: error: '<<<<<<<' is a conflict marker"));
+  CHECK(diagnostic_of([] {
+          read_krl("DEFDAT job\nENDDAT\n");
+        }).starts_with("job.src:1:1: error: this is a data list"));
+}

@@ -1,0 +1,191 @@
+// Programs of Universal Robots: reading.
+#include <doctest/doctest.h>
+
+#include "counterflex/files/files.hpp"
+#include "counterflex/program/overview.hpp"
+#include "program/robot/ur/ur.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+std::string refusal_of_ur(const std::string& statements) {
+  return diagnostic_of([&] { read_ur_statements(statements); });
+}
+
+}  // namespace
+
+TEST_CASE("the targets of movej, movel and movep are read in mm, with rotation vector, feed and stop") {
+  const Program program = read_ur(ur_milling);
+  CHECK(program.dialect == "ur");
+  REQUIRE(program.moves.size() == 3);
+  REQUIRE(program.left_alone.size() == 1);
+  CHECK(program.left_alone[0].line == 8);
+  CHECK(program.left_alone[0].machine_position);
+  const Move &rapid = program.moves[0], &down = program.moves[1], &across = program.moves[2];
+  CHECK(rapid.line == 9);
+  CHECK(rapid.motion == Motion::rapid);
+  CHECK(!rapid.known_start[0]);
+  CHECK(all_known(rapid.known_end));
+  CHECK(!rapid.may_split);
+  CHECK((rapid.end_mm - Vector3(700, 250, 600)).norm() < 1e-9);
+  CHECK(rapid.unit == LengthUnit::metres);
+  CHECK(down.motion == Motion::feed);
+  CHECK((down.start_mm - Vector3(700, 250, 600)).norm() < 1e-9);
+  CHECK((down.end_mm - Vector3(700, 250, 500)).norm() < 1e-9);
+  CHECK(down.feed_mm_min == doctest::Approx(3000));
+  CHECK(down.may_split);
+  CHECK(down.may_jump);
+  CHECK(!down.exact_stop);
+  CHECK(program.operations[down.operation] == "POCKET");
+  CHECK(across.feed_mm_min == doctest::Approx(6000));
+  CHECK((across.end_mm - Vector3(800, 250, 500)).norm() < 1e-9);
+  CHECK(across.orientation->form == OrientationForm::rotation_vector);
+  CHECK(!across.orientation->by_angles);
+  CHECK(across.orientation->start == OrientationNumbers{-1.2092, -1.2092, -1.2092});
+  CHECK(across.orientation->end == OrientationNumbers{0, 3.1415927, 0});
+  CHECK(program.frames[across.frame] == ProgramFrame{});
+  CHECK(zones_in_words(program.zones) == "round 2 targets, largest 2 mm, line 10");
+  CHECK(program.remarks.empty());
+}
+
+TEST_CASE("a rotation vector of URScript is the axis and angle of the tool's orientation") {
+  // Equal components of 120 degrees in length: X goes to Y, Y to Z, Z to X.
+  const Program program =
+      read_ur_statements("movel(p[0, 0, 0, 1.2091995761561452, 1.2091995761561452, 1.2091995761561452])\n");
+  const Matrix3 R = turn_of(*program.moves[0].orientation).end;
+  CHECK((R * Vector3::UnitX() - Vector3::UnitY()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitY() - Vector3::UnitZ()).norm() < 1e-12);
+  CHECK((R * Vector3::UnitZ() - Vector3::UnitX()).norm() < 1e-12);
+}
+
+TEST_CASE("a move that stops, that states its time or that follows an unknown zone is not split") {
+  const Program program = read_ur_statements(
+      "movel(p[0,0,0,0,0,0])\n"
+      "movel(p[1,0,0,0,0,0])\n"
+      "movel(p[2,0,0,0,0,0],r=0)\n"
+      "movel(p[3,0,0,0,0,0],1.2,0.25,2,0.01)\n"
+      "movel(p[4,0,0,0,0,0],r=read_zone())\n"
+      "movel(p[5,0,0,0,0,0],r=0.01)\n"
+      "movel(p[6,0,0,0,0,0],r=0.01,v=fast)\n"
+      "movel(p[7,0,0,0,0,0],r=0.01,t=later)\n");
+  REQUIRE(program.moves.size() == 8);
+  CHECK(program.moves[1].exact_stop);
+  CHECK(program.moves[1].feed_mm_min == 15000);  // the default of 0.25 m/s
+  CHECK(!program.moves[1].may_split);
+  CHECK(program.moves[2].exact_stop);
+  CHECK(!program.moves[3].exact_stop);
+  CHECK(!program.moves[3].may_split);
+  CHECK(program.moves[3].feed_mm_min == doctest::Approx(30000));  // 1 m in 2 s
+  CHECK(!program.moves[4].may_split);
+  CHECK(!program.moves[5].may_split);
+  CHECK(program.moves[6].may_split);
+  CHECK(program.moves[6].feed_mm_min == 0);
+  CHECK(!program.moves[6].may_jump);
+  CHECK(!program.moves[7].may_split);
+  CHECK(program.moves[7].feed_mm_min == 0);
+}
+
+TEST_CASE("a pose that is not a constant before its use is not followed") {
+  const Program program = read_ur_statements(
+      "movel(late)\n"
+      "late = p[0,0,0,0,0,0]\n"
+      "twice = p[0,0,0,0,0,0]\n"
+      "twice = p[1,0,0,0,0,0]\n"
+      "movel(twice)\n"
+      "part = p[0,0,0,0,0,0]\n"
+      "part[2] = 0.5\n"
+      "movel(part)\n"
+      "movel(p[x,0,0,0,0,0])\n"
+      "movel(pose_add(late, late))\n"
+      "if (a):\n"
+      "  maybe = p[0,0,0,0,0,0]\n"
+      "end\n"
+      "movel(maybe)\n"
+      "movej(twice)\n");
+  REQUIRE(program.moves.size() == 6);
+  for (const Move& move : program.moves) CHECK(move.fixed[0]);
+  REQUIRE(program.left_alone.size() == 2);
+  CHECK(program.left_alone[0].line == 2);
+  CHECK(program.left_alone[0].why == "the target of movel is computed at run time");
+  CHECK(program.left_alone[1].line == 16);
+}
+
+TEST_CASE("circles that are not known are not followed") {
+  const Program program = read_ur_statements(
+      "movec(p[0,0.01,0,0,0,0], p[-0.01,0,0,0,0,0])\n"
+      "movel(p[0.01,0,0,0,0,0])\n"
+      "movec(p[0,0.01,0,0,0,0], p[-0.01,0,0,0,0,0], mode=1)\n"
+      "movel(p[0.01,0,0,0,0,0])\n"
+      "movec(p[0.005,0,0,0,0,0], p[0,0,0,0,0,0])\n");
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[0].fixed[0]);
+  CHECK(program.moves[2].fixed[0]);
+  CHECK(program.moves[4].fixed[0]);
+}
+
+TEST_CASE("joint positions, calls, loops and conditions leave the position unknown") {
+  const Program program = read_ur_statements(
+      "movel(p[0,0,0,0,0,0])\n"
+      "movel([0,0,0,0,0,0])\n"
+      "movel(p[0.1,0,0,0,0,0])\n"
+      "set_digital_out(1, True)\n"
+      "movel(p[0.2,0,0,0,0,0])\n"
+      "grip(20)\n"
+      "movel(p[0.3,0,0,0,0,0])\n"
+      "while (True):\n"
+      "  if digital_in(1):\n"
+      "    movel(p[0.4,0,0,0,0,0])\n"
+      "  else:\n"
+      "    movej(p[0.5,0,0,0,0,0])\n"
+      "  end\n"
+      "end\n"
+      "movel(p[0.6,0,0,0,0,0])\n"
+      "def helper():\n"
+      "  movel(p[0.7,0,0,0,0,0])\n"
+      "end\n"
+      "movel(p[0.8,0,0,0,0,0])\n"
+      "x = helper()\n"
+      "movel(p[0.9,0,0,0,0,0])\n");
+  std::vector<std::pair<bool, bool>> known;
+  for (const Move& move : program.moves)
+    known.emplace_back(all_known(move.known_start), all_known(move.known_end));
+  const std::vector<std::pair<bool, bool>> expected{{false, true}, {false, true}, {true, true},
+                                                    {false, true}, {true, false}, {false, true},
+                                                    {true, false}, {false, true}, {false, true}};
+  CHECK(known == expected);
+  CHECK(unchanged(program) == program.text);
+}
+
+TEST_CASE("another tool makes the position unknown, the same tool does not") {
+  const Program program = read_ur_statements(
+      "tool = p[0,0,0.1,0,0,0]\n"
+      "set_tcp(tool)\n"
+      "movel(p[0,0,0,0,0,0])\n"
+      "set_tcp(p[0,0,0.1,0,0,0])\n"
+      "movel(p[0.1,0,0,0,0,0])\n"
+      "set_tcp(p[0,0,0.2,0,0,0])\n"
+      "movel(p[0.2,0,0,0,0,0])\n"
+      "set_tcp(measured)\n"
+      "movel(p[0.3,0,0,0,0,0])\n");
+  CHECK(all_known(program.moves[1].known_start));
+  CHECK(!program.moves[2].known_start[0]);
+  CHECK(!program.moves[3].known_start[0]);
+}
+
+TEST_CASE("what URScript shifts at run time, and text that is not a program, is refused with its line") {
+  CHECK(refusal_of_ur("\nforce_mode(p[0,0,0,0,0,0])\n")
+            .starts_with("job.script:3:1: error: force_mode shifts"));
+  CHECK(refusal_of_ur("movel(p[0,0,0,0,0,0]\n")
+            .starts_with("job.script:2:6: error: the arguments of movel have"));
+  CHECK(refusal_of_ur("movel(p[0,0,0,0,0,0]) movel(P1)\n")
+            .starts_with("job.script:2:22: error: unexpected text"));
+  CHECK(refusal_of_ur("movel()\n").starts_with("job.script:2:1: error: movel has no target"));
+  CHECK(refusal_of_ur("if x: movel(P1)\nend\n").starts_with("job.script:2:1: error: the line of 'if'"));
+  CHECK(refusal_of_ur("end\ndef other():\n").starts_with("job.script:3:1: error: this is a second function"));
+  CHECK(refusal_of_ur("<<<<<<< HEAD\n").starts_with("job.script:2:1: error: '<<<<<<<' is a conflict marker"));
+  CHECK(refusal_of_ur("+5\n").starts_with("job.script:2:1: error: the statement is not URScript"));
+  CHECK(diagnostic_of([] { read_ur("movel(p[0,0,0,0,0,0])\nend\n"); }) ==
+        "job.script:2:1: error: 'end' closes nothing");
+}
