@@ -273,7 +273,7 @@ void enter_robot_tool(RobotReading& r, std::int32_t tool, const std::optional<Po
 
 namespace {
 
-/// A post says with which lengths it computed the targets.
+/// A post states with which lengths it computed the targets.
 void note_kinematics(RobotReading& r, const RobotLine& line) {
   const std::string_view comment = part(r.program.text, line.comment);
   for (const std::string_view mark : {"NOMINAL KINEMATICS", "ACCURATE KINEMATICS", "ABSOLUTE ACCURACY"}) {
@@ -283,7 +283,7 @@ void note_kinematics(RobotReading& r, const RobotLine& line) {
     const auto begin = static_cast<std::size_t>(at - comment.begin());
     add_remark(
         r.program, line.line,
-        fmt::format("a comment says '{}': the errors of assembly in the machine file must be those that "
+        fmt::format("a comment states '{}': the errors of assembly in the machine file must be those that "
                     "the lengths of the control leave; state these with [controller] kinematics",
                     comment.substr(begin, mark.size())));
   }

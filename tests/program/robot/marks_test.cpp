@@ -1,4 +1,4 @@
-// Comments of posts that say with which lengths targets were computed.
+// Comments of posts that state with which lengths targets were computed.
 #include <doctest/doctest.h>
 
 #include <algorithm>
@@ -30,7 +30,7 @@ TEST_CASE("a comment of nominal or accurate kinematics is reported with its line
     const auto found = remarks("Using Nominal Kinematics.");
     REQUIRE(found.size() == 1);
     CHECK(found[0].line == std::count(job.head.begin(), job.head.end(), '\n') + 1);
-    CHECK(found[0].what.starts_with("a comment says 'Nominal Kinematics': the errors of assembly"));
+    CHECK(found[0].what.starts_with("a comment states 'Nominal Kinematics': the errors of assembly"));
     CHECK(remarks("robot with absolute accuracy").size() == 1);
     CHECK(remarks("kinematics").empty());
   }
