@@ -44,10 +44,13 @@ class Robot {
  private:
   /// A tool that the program defines must be [tool]. A second tool must be one of [tools].
   bool has_tool(const JointPlace& place, std::int32_t tool) const {
-    constexpr double same_mm = 0.01;
+    constexpr double same_mm = 0.01, same_rad = 1e-4;
     if (tool != 0 && machine_.tools.contains(tool)) return true;
     if (place.other_tool) return false;
-    return !place.tcp_mm || (place.tcp_mm->p - machine_.X_PT.p / mm).norm() < same_mm;
+    if (!place.tcp_mm) return true;
+    const Matrix3 R = machine_.X_PT.R * tool_axes(machine_.spindle_axis).transpose();
+    return (place.tcp_mm->p - machine_.X_PT.p / mm).norm() < same_mm &&
+           rotation_between(place.tcp_mm->R, R).norm() < same_rad;
   }
 
   /// A run solves its places on the branch of home. Elsewhere the errors act in another way.

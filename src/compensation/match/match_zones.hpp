@@ -16,8 +16,7 @@ struct ZoneBefore {
 };
 
 /// The failure of a zone that is not the original's, or that reaches over the middle between its target and
-/// one that was inserted beside it. Updates `before`: at the end
-/// of a window its `smaller` is a failure.
+/// one that was inserted beside it. Updates `before`: at the end of a window its `smaller` is a failure.
 std::optional<Failure> zone_failure(const Job& job, const MatchedMoves& matched, ZoneBefore& before);
 
 }  // namespace counterflex

@@ -123,22 +123,28 @@ void place_at_joints(RobotReading& r, int line, Motion motion) {
         "the line begins at a target in joint values: it is corrected from its start if the machine file "
         "has [controller] joint_values = \"as_shown\"");
   if (!joints || !r.options.kinematics) return;
-  JointPlace place = *joints;
-  place.tcp_mm = state.tcp_mm;
-  place.other_tool = state.tools > 1;
-  const auto X = r.options.kinematics(place, state.tool, r.program.frames[state.frame]);
+  const auto X = pose_at_joints(r, *joints, r.program.frames[state.frame]);
   if (!X) return;
   state.at_joints = true;
   state.position_mm = X->p;
   state.known_position.fill(true);
   state.known_orientation.fill(r.turns);
   if (!r.turns) return;
-  const bool turned = r.form != OrientationForm::axis;
-  const Matrix3 R = turned ? Matrix3(X->R * tool_axes(r.options.spindle_axis).transpose()) : X->R;
-  state.orientation = numbers_of(r.form, R, {1, 0, 0, 0});
+  state.orientation = numbers_of(r.form, X->R, {1, 0, 0, 0});
 }
 
 }  // namespace
+
+std::optional<Pose> pose_at_joints(const RobotReading& r, const JointPlace& joints,
+                                   const ProgramFrame& frame) {
+  if (!r.options.kinematics) return std::nullopt;
+  JointPlace place = joints;
+  place.tcp_mm = r.state.tcp_mm;
+  place.other_tool = r.state.tools > 1;
+  auto X = r.options.kinematics(place, r.state.tool, frame);
+  if (X && r.form != OrientationForm::axis) X->R = X->R * tool_axes(r.options.spindle_axis).transpose();
+  return X;
+}
 
 Move begin_robot_move(RobotReading& r, const RobotLine& line, Motion motion) {
   RobotState& state = r.state;

@@ -61,6 +61,11 @@ struct TargetMove {
 /// Begins a move in the state before the statement of `line`.
 Move begin_robot_move(RobotReading& reading, const RobotLine& line, Motion motion);
 
+/// Pose of the tool frame at joint values in coordinates of `frame`, with the tool that is selected. Empty
+/// without kinematics, and where the place is not known.
+std::optional<Pose> pose_at_joints(const RobotReading& reading, const JointPlace& joints,
+                                   const ProgramFrame& frame);
+
 /// Moves the state to `target` and completes `move`, which begins at the last one. Numbers that the target
 /// does not have keep their last value.
 void end_at_target(RobotReading& reading, const RobotTarget& target, const TargetMove& how, Move& move);

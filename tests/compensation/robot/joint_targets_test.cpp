@@ -231,3 +231,21 @@ TEST_CASE(
   CHECK(!knows_start("PTP {" + joints + "}\nLIN {X " +
                      fmt::format("{:.3f},Y {:.3f},Z {:.3f}", p.x(), p.y(), p.z()) + ",A 0,B 0,C 0} C_DIS\n"));
 }
+
+TEST_CASE("the kinematics get the tool of the program, for joint targets and for movel to joint values") {
+  const std::string joints = "[" + list(joints_at(second), 1) + "]";
+  const auto left = [&](const std::string& tools) {
+    Order order = order_of("ur", "");
+    order.read.kinematics = [](const JointPlace& place, std::int32_t, const ProgramFrame&) {
+      const bool same = !place.other_tool && place.tcp_mm && place.tcp_mm->p.z() == 150;
+      return same ? std::optional(nominal_place(place)) : std::nullopt;
+    };
+    const Program program = read_program(
+        "def part():\n" + tools + "  movel(" + joints + ", a=1, v=0.025)\nend\n", "part", order.read);
+    return program.moves.empty();
+  };
+  const std::string tool = "  set_tcp(p[0,0,0.15,0,0,0])\n", other = "  set_tcp(p[0,0,0.2,0,0,0])\n";
+  CHECK(!left(tool));
+  CHECK(left(other));
+  CHECK(left(other + tool));
+}

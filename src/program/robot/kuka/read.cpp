@@ -138,9 +138,9 @@ void begin_or_end(KrlReading& r) {
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.zone_mm = 0;
   if (is_one_of(krl_word(name), motionless_calls)) return;
+  r.has_called = true;
   if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
   forget_position(r.robot);
-  r.has_called = true;
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));

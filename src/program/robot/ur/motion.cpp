@@ -102,12 +102,11 @@ UrTarget target_at(const UrReading& r, Span value) {
 /// A joint target as a pose in the base of the robot, if the kinematics are known. `operand`, which a
 /// corrected pose replaces, is the text of each of its numbers.
 UrTarget at_pose(const UrReading& r, const UrTarget& target, Span operand) {
-  if (!target.joints || !r.robot.options.kinematics) return target;
-  const RobotState& state = r.robot.state;
-  const auto X = r.robot.options.kinematics(*target.joints, state.tool, {});
+  if (!target.joints) return target;
+  const auto X = pose_at_joints(r.robot, *target.joints, {});
   if (!X) return target;
-  const Matrix3 R = X->R * tool_axes(r.robot.options.spindle_axis).transpose();
-  const OrientationNumbers vector = numbers_of(OrientationForm::rotation_vector, R, state.orientation);
+  const OrientationNumbers vector =
+      numbers_of(OrientationForm::rotation_vector, X->R, r.robot.state.orientation);
   UrTarget posed{.kind = TargetKind::pose};
   const int decimals = resolution_decimals(LengthUnit::metres);
   for (std::size_t i = 0; i < 3; ++i) {
