@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 
 #include "toml/suggest.hpp"
@@ -99,6 +100,15 @@ std::string as_text(const toml::node& node, std::string_view name, const Source&
   if (text == nullptr) source.fail(node, fmt::format("{} must be a string, not {}", name, seen(node)));
   if (text->get().empty()) source.fail(node, fmt::format("{} is an empty string", name));
   return text->get();
+}
+
+std::string as_identifier(const toml::node& node, std::string_view name, const Source& source) {
+  std::string text = as_text(node, name, source);
+  const bool fits = std::all_of(text.begin(), text.end(), [](unsigned char c) {
+    return (std::isalnum(c) != 0 && c < 128) || c == '_' || c == '-';
+  });
+  if (!fits) source.fail(node, fmt::format("{} is \"{}\"; allowed are letters, digits, _ and -", name, text));
+  return text;
 }
 
 bool as_truth(const toml::node& node, std::string_view name, const Source& source) {

@@ -63,6 +63,8 @@ const toml::node& required(const toml::table& table, std::string_view key, std::
 const toml::table& as_table(const toml::node& node, std::string_view name, const Source& source);
 const toml::array& as_array(const toml::node& node, std::string_view name, const Source& source);
 std::string as_text(const toml::node& node, std::string_view name, const Source& source);
+/// A text of letters, digits, "_" and "-".
+std::string as_identifier(const toml::node& node, std::string_view name, const Source& source);
 bool as_truth(const toml::node& node, std::string_view name, const Source& source);
 
 /// The text of `node`, which must be one of `allowed`.

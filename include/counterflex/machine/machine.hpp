@@ -124,6 +124,7 @@ struct Spring {
 struct Compliance {
   Joint joint;
   double stiffness = 0;  ///< N/m or N m/rad, positive
+  std::string name{};    ///< of its parameter; may be empty
 };
 
 /// A point mass fixed in the frame at its place in the chain: a file's `mass` beside an element follows that
@@ -131,6 +132,7 @@ struct Compliance {
 struct PointMass {
   double kg = 0;                 ///< positive
   Vector3 at = Vector3::Zero();  ///< m
+  std::string name{};            ///< of its parameter; may be empty
 };
 
 struct Branch;
@@ -202,6 +204,17 @@ enum class ControlKinematics {
   factory,    ///< lengths that the maker calibrated: the file's errors are what these leave
 };
 
+/// The source of a number.
+enum class NumberSource { measured, catalogue, prior };
+
+/// What a machine file states about one of its parameters (machine/parameters.hpp).
+struct ParameterStatement {
+  std::string name;
+  NumberSource source = NumberSource::prior;
+  std::optional<double> sigma{};  ///< standard deviation, SI
+  std::string note{};             ///< where the number is from
+};
+
 /// What pulls at masses, and when the controller's zero was set.
 struct Gravity {
   Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
@@ -234,6 +247,7 @@ struct Machine {
   Vector3 p_EP = Vector3::Zero();
   std::vector<Chain> chains;
   std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
+  std::vector<ParameterStatement> parameters;  ///< in the order of the file
 };
 
 /// Whether the machine lists the component as controlled.

@@ -104,10 +104,11 @@ Element read_group(const toml::table& table, Expansion& expansion) {
 
 PointMass read_mass(const toml::node& node, const Reading& reading) {
   const toml::table& table = as_table(node, "mass", reading.source);
-  check_keys(table, {"kg", "at_mm"}, "a mass", reading.source);
+  check_keys(table, {"kg", "at_mm", "name"}, "a mass", reading.source);
   PointMass mass;
   mass.kg = as_positive(required(table, "kg", "a mass", node, reading.source), {"kg"}, reading);
   if (const toml::node* at = table.get("at_mm")) mass.at = as_vector3(*at, "at_mm", reading) * mm;
+  if (const toml::node* name = table.get("name")) mass.name = as_identifier(*name, "name", reading.source);
   return mass;
 }
 

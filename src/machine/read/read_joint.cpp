@@ -154,7 +154,7 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const std::string owner = fmt::format("a {} compliance", keys.name);
   std::vector<std::string_view> forms = stiffness_keys(keys);
   forms.push_back(keys.compliance);
-  std::vector<std::string_view> allowed = {"compliance", "axis", "preload", "mass"};
+  std::vector<std::string_view> allowed = {"compliance", "axis", "preload", "mass", "name"};
   allowed.insert(allowed.end(), forms.begin(), forms.end());
   check_keys(table, allowed, owner, reading.source);
   Compliance compliance;
@@ -166,6 +166,8 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const double value = as_positive(*table.get(form), {form}, reading);
   compliance.stiffness = form == keys.compliance ? 1 / value : stiffness_in_si(value, form, keys);
   refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
+  if (const toml::node* name = table.get("name"))
+    compliance.name = as_identifier(*name, "name", reading.source);
   // In the nominal configuration its coordinate is 0, so that "home" is the default.
   if (const toml::node* preload = table.get("preload")) check_preload_home(*preload, "", reading.source);
   return compliance;

@@ -6,6 +6,7 @@
 #include "counterflex/files/text.hpp"
 #include "machine/read/read_chains.hpp"
 #include "machine/read/read_load_limits.hpp"
+#include "machine/read/read_parameters.hpp"
 #include "machine/read/read_settings.hpp"
 #include "machine/read/read_shown.hpp"
 #include "machine/read/read_tools.hpp"
@@ -55,7 +56,8 @@ Machine read_machine(std::string_view text, const std::string& file) {
   check_keys(
       document,
       {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
-       "tools", "work", "program", "controller", "limits", "springs", "branches", "templates", "chain"},
+       "tools", "work", "program", "controller", "limits", "parameters", "springs", "branches", "templates",
+       "chain"},
       "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
@@ -73,6 +75,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   machine.chains = read_chains(document, source);
   convert_homes(machine);
   read_load_limits(document, source, machine);
+  read_parameters(document, source, machine);
   if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);
   check_home(document, source, machine);
