@@ -8,7 +8,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "forces/read/csv_text.hpp"
+#include "files/csv_text.hpp"
 
 namespace counterflex::csv {
 namespace {

@@ -2,7 +2,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/forces/forces.hpp"
-#include "forces/read/csv_text.hpp"
+#include "files/csv_text.hpp"
 #include "forces/read/selector_text.hpp"
 
 namespace counterflex {

@@ -7,7 +7,7 @@
 #include <variant>
 
 #include "counterflex/files/text.hpp"
-#include "forces/read/csv_text.hpp"
+#include "files/csv_text.hpp"
 
 namespace counterflex {
 

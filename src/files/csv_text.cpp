@@ -1,4 +1,4 @@
-#include "forces/read/csv_text.hpp"
+#include "files/csv_text.hpp"
 
 #include <algorithm>
 
@@ -30,10 +30,10 @@ std::string_view trimmed(std::string_view text) {
   return text;
 }
 
-std::vector<Field> split(std::string_view line, int first_column) {
+std::vector<Field> split(std::string_view line, int first_column, char separator) {
   std::vector<Field> fields;
   for (std::size_t begin = 0;;) {
-    const std::size_t end = std::min(line.find(',', end_of_quotes(line, begin)), line.size());
+    const std::size_t end = std::min(line.find(separator, end_of_quotes(line, begin)), line.size());
     const std::string_view raw = line.substr(begin, end - begin), text = unquoted(trimmed(raw));
     const std::size_t indent = text.empty() ? 0 : static_cast<std::size_t>(text.data() - raw.data());
     fields.push_back({text, first_column + static_cast<int>(begin + indent)});

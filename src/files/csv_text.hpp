@@ -17,9 +17,9 @@ struct Field {
 /// `text` without blanks and tabs at both ends.
 std::string_view trimmed(std::string_view text);
 
-/// The fields between commas. Commas in double quotes do not separate fields. `first_column` is the column of
-/// the line's first byte.
-std::vector<Field> split(std::string_view line, int first_column = 1);
+/// The fields between separators. Separators in double quotes do not separate fields. `first_column` is the
+/// column of the line's first byte.
+std::vector<Field> split(std::string_view line, int first_column = 1, char separator = ',');
 
 /// Removes the next line from `text` and returns it without its LF or CRLF.
 std::string_view take_line(std::string_view& text);
