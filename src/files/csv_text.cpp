@@ -1,4 +1,4 @@
-#include "files/csv_text.hpp"
+#include "counterflex/files/csv_text.hpp"
 
 #include <algorithm>
 

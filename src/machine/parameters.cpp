@@ -9,26 +9,15 @@
 #include <string_view>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/parameter_places.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr std::array<std::string_view, 6> error_units = {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"};
-constexpr std::array<std::string_view, 6> spring_units = {"x_m_per_N",    "y_m_per_N",    "z_m_per_N",
+constexpr std::array<std::string_view, 6> error_units = {"x_mm",   "y_mm",   "z_mm",
+                                                         "rx_deg", "ry_deg", "rz_deg"};
+constexpr std::array<std::string_view, 6> spring_units = {"x_m_per_N",     "y_m_per_N",     "z_m_per_N",
                                                           "rx_rad_per_Nm", "ry_rad_per_Nm", "rz_rad_per_Nm"};
-
-/// One parameter's place in a machine: an element, and the component of an error or of a diagonal spring.
-struct Place {
-  Element* element = nullptr;
-  int component = 0;
-};
-
-struct NamedPlace {
-  std::string name;
-  ParameterKind kind;
-  double unit;
-  Place place;
-};
 
 /// (p, Log R): the six components of an assembly error.
 Vector6 components(const Pose& X) {
@@ -47,16 +36,16 @@ double mean_compliance(const Matrix6& K) {
   return lu.isInvertible() ? lu.inverse().diagonal().head<3>().mean() : 0;
 }
 
-double read(const Place& place) {
+double read(const ParameterPlace& place) {
   const int i = place.component;
   if (const auto* error = std::get_if<AssemblyError>(place.element)) return components(error->X)[i];
   if (const auto* joint = std::get_if<Compliance>(place.element)) return 1 / joint->stiffness;
   if (const auto* mass = std::get_if<PointMass>(place.element)) return mass->kg;
   const auto& spring = std::get<Spring>(*place.element);
-  return is_diagonal(spring.K) ? 1 / spring.K(i, i) : mean_compliance(spring.K);
+  return i >= 0 ? 1 / spring.K(i, i) : mean_compliance(spring.K);
 }
 
-void write(const Place& place, double value) {
+void write(const ParameterPlace& place, double value) {
   const int i = place.component;
   if (auto* error = std::get_if<AssemblyError>(place.element)) {
     Vector6 c = components(error->X);
@@ -66,7 +55,7 @@ void write(const Place& place, double value) {
     joint->stiffness = 1 / value;
   } else if (auto* mass = std::get_if<PointMass>(place.element)) {
     mass->kg = value;
-  } else if (auto& spring = std::get<Spring>(*place.element); is_diagonal(spring.K)) {
+  } else if (auto& spring = std::get<Spring>(*place.element); i >= 0) {
     spring.K(i, i) = 1 / value;
   } else {
     spring.K *= mean_compliance(spring.K) / value;
@@ -76,7 +65,7 @@ void write(const Place& place, double value) {
 /// Lists the parameters of a series of elements.
 class Lister {
  public:
-  explicit Lister(std::vector<NamedPlace>& list) : list_(list) {}
+  explicit Lister(std::vector<ParameterPlace>& list) : list_(list) {}
 
   void add(std::vector<Element>& elements, const std::string& prefix) {
     int compliances = 0, masses = 0;
@@ -86,15 +75,16 @@ class Lister {
         for (int i = 0; i < 6; ++i)
           list_.push_back({prefix + error->name + "." + std::string(error_units[static_cast<std::size_t>(i)]),
                            i < 3 ? ParameterKind::position : ParameterKind::orientation, i < 3 ? mm : deg,
-                           {&element, i}});
+                           &element, i});
       } else if (auto* joint = std::get_if<Compliance>(&element)) {
-        const std::string name = joint->name.empty() ? fmt::format("compliance{}", ++compliances) : joint->name;
+        const std::string name =
+            joint->name.empty() ? fmt::format("compliance{}", ++compliances) : joint->name;
         const bool turns = joint->joint.kind == JointKind::revolute;
         list_.push_back({prefix + name + (turns ? ".compliance_rad_per_Nm" : ".compliance_m_per_N"),
-                         ParameterKind::compliance, 1, {&element}});
+                         ParameterKind::compliance, 1, &element});
       } else if (auto* mass = std::get_if<PointMass>(&element)) {
         const std::string name = mass->name.empty() ? fmt::format("mass{}", ++masses) : mass->name;
-        list_.push_back({prefix + name + ".kg", ParameterKind::mass, 1, {&element}});
+        list_.push_back({prefix + name + ".kg", ParameterKind::mass, 1, &element});
       } else if (auto* spring = std::get_if<Spring>(&element)) {
         const int count = ++springs[spring->name];
         add_spring(element, prefix + spring->name + (count == 1 ? "" : fmt::format("({})", count)));
@@ -109,46 +99,45 @@ class Lister {
     const Matrix6& K = std::get<Spring>(element).K;
     if (!is_diagonal(K)) {
       if (mean_compliance(K) > 0)
-        list_.push_back({name + ".compliance_m_per_N", ParameterKind::compliance, 1, {&element}});
+        list_.push_back({name + ".compliance_m_per_N", ParameterKind::compliance, 1, &element});
       return;
     }
     for (int i = 0; i < 6; ++i)
       if (K(i, i) > 0)
         list_.push_back({name + "." + std::string(spring_units[static_cast<std::size_t>(i)]),
-                         ParameterKind::compliance, 1, {&element, i}});
+                         ParameterKind::compliance, 1, &element, i});
   }
 
-  std::vector<NamedPlace>& list_;
+  std::vector<ParameterPlace>& list_;
 };
 
-/// The places point into `machine`.
-std::vector<NamedPlace> places(Machine& machine) {
-  std::vector<NamedPlace> list;
+}  // namespace
+
+std::vector<ParameterPlace> parameter_places(Machine& machine) {
+  std::vector<ParameterPlace> list;
   Lister lister(list);
   for (Chain& chain : machine.chains)
     lister.add(chain.elements, machine.chains.size() == 1 ? "" : chain.name + ".");
   std::map<std::string, int> seen;  // branches used twice in one chain
-  for (NamedPlace& place : list)
+  for (ParameterPlace& place : list)
     if (const int count = ++seen[place.name]; count > 1)
       place.name.insert(place.name.rfind('.'), fmt::format("({})", count));
   return list;
 }
 
-}  // namespace
-
 std::vector<Parameter> parameters(const Machine& machine) {
   Machine copy = machine;
   std::vector<Parameter> list;
-  for (const NamedPlace& place : places(copy))
-    list.push_back({place.name, place.kind, read(place.place), place.unit});
+  for (const ParameterPlace& place : parameter_places(copy))
+    list.push_back({place.name, place.kind, read(place), place.unit});
   return list;
 }
 
 Machine with_parameters(const Machine& machine, const std::vector<double>& values) {
   Machine result = machine;
-  const std::vector<NamedPlace> list = places(result);
+  const std::vector<ParameterPlace> list = parameter_places(result);
   for (std::size_t i = 0; i < list.size(); ++i)
-    if (read(list[i].place) != values[i]) write(list[i].place, values[i]);
+    if (read(list[i]) != values[i]) write(list[i], values[i]);
   return result;
 }
 

@@ -1,7 +1,8 @@
+#include "counterflex/machine/parameters.hpp"
+
 #include <doctest/doctest.h>
 
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "machine/machine_texts.hpp"
 
@@ -9,7 +10,7 @@ using namespace counterflex;
 
 namespace {
 
-const std::string arm = R"(format = "counterflex-machine 1"
+const std::string named_arm = R"(format = "counterflex-machine 1"
 controlled = ["x"]
 
 [springs.post]
@@ -31,17 +32,17 @@ errors.mount = { xyz_mm = [1, 2, 3], rpy_deg = [0, 0, 0.5] }
 )";
 
 Machine arm_with(const std::string& entries) {
-  return read_machine(arm + "\n[parameters]\n" + entries, "arm.toml");
+  return read_machine(named_arm + "\n[parameters]\n" + entries, "arm.toml");
 }
 
-double value_of(const Machine& machine, const std::string& name) {
+double parameter_value(const Machine& machine, const std::string& name) {
   for (const Parameter& parameter : parameters(machine))
     if (parameter.name == name) return parameter.value / parameter.unit;
   FAIL("no parameter " << name);
   return 0;
 }
 
-std::string message_of(const std::string& entries) {
+std::string parameter_error(const std::string& entries) {
   try {
     arm_with(entries);
   } catch (const InputError& error) {
@@ -54,12 +55,13 @@ std::string message_of(const std::string& entries) {
 
 TEST_CASE("every number that measurements can identify has a name") {
   std::vector<std::string> names;
-  for (const Parameter& parameter : parameters(read_machine(arm, "arm.toml"))) names.push_back(parameter.name);
-  CHECK(names == std::vector<std::string>{
-                     "mount.x_mm", "mount.y_mm", "mount.z_mm", "mount.rx_deg", "mount.ry_deg", "mount.rz_deg",
-                     "A1.compliance_rad_per_Nm", "link.kg", "compliance1.compliance_m_per_N", "post.x_m_per_N",
-                     "post.y_m_per_N", "post.rx_rad_per_Nm", "post.ry_rad_per_Nm", "post.rz_rad_per_Nm",
-                     "mass1.kg", "bar.compliance_m_per_N"});
+  for (const Parameter& parameter : parameters(read_machine(named_arm, "arm.toml")))
+    names.push_back(parameter.name);
+  CHECK(names == std::vector<std::string>{"mount.x_mm", "mount.y_mm", "mount.z_mm", "mount.rx_deg",
+                                          "mount.ry_deg", "mount.rz_deg", "A1.compliance_rad_per_Nm",
+                                          "link.kg", "compliance1.compliance_m_per_N", "post.x_m_per_N",
+                                          "post.y_m_per_N", "post.rx_rad_per_Nm", "post.ry_rad_per_Nm",
+                                          "post.rz_rad_per_Nm", "mass1.kg", "bar.compliance_m_per_N"});
 }
 
 TEST_CASE("values of parameters replace those of the elements") {
@@ -68,12 +70,12 @@ TEST_CASE("values of parameters replace those of the elements") {
 "post.x_m_per_N" = { value = 3e-7, source = "prior" }
 "bar.compliance_m_per_N" = { value = 1e-6, source = "prior" }
 )");
-  CHECK(value_of(machine, "mount.y_mm") == doctest::Approx(-4));
-  CHECK(value_of(machine, "mount.rz_deg") == doctest::Approx(0.5));
-  CHECK(value_of(machine, "A1.compliance_rad_per_Nm") == doctest::Approx(4e-6));
-  CHECK(value_of(machine, "post.x_m_per_N") == doctest::Approx(3e-7));
-  CHECK(value_of(machine, "post.y_m_per_N") == doctest::Approx(5e-8));
-  CHECK(value_of(machine, "bar.compliance_m_per_N") == doctest::Approx(1e-6));
+  CHECK(parameter_value(machine, "mount.y_mm") == doctest::Approx(-4));
+  CHECK(parameter_value(machine, "mount.rz_deg") == doctest::Approx(0.5));
+  CHECK(parameter_value(machine, "A1.compliance_rad_per_Nm") == doctest::Approx(4e-6));
+  CHECK(parameter_value(machine, "post.x_m_per_N") == doctest::Approx(3e-7));
+  CHECK(parameter_value(machine, "post.y_m_per_N") == doctest::Approx(5e-8));
+  CHECK(parameter_value(machine, "bar.compliance_m_per_N") == doctest::Approx(1e-6));
   REQUIRE(machine.parameters.size() == 4);
   CHECK(machine.parameters[0].name == "mount.y_mm");
   CHECK(*machine.parameters[0].sigma == doctest::Approx(1e-4));
@@ -81,7 +83,7 @@ TEST_CASE("values of parameters replace those of the elements") {
 }
 
 TEST_CASE("setting the values that a machine has changes no bit of it") {
-  const Machine machine = read_machine(arm, "arm.toml");
+  const Machine machine = read_machine(named_arm, "arm.toml");
   std::vector<double> values;
   for (const Parameter& parameter : parameters(machine)) values.push_back(parameter.value);
   const Machine same = with_parameters(machine, values);
@@ -90,14 +92,15 @@ TEST_CASE("setting the values that a machine has changes no bit of it") {
 }
 
 TEST_CASE("parameters of a machine of several chains begin with the chain's name") {
-  const std::vector<Parameter> all = parameters(load_machine(COUNTERFLEX_SOURCE_DIR "/samples/orthoglide-groove/machine.toml"));
+  const std::vector<Parameter> all =
+      parameters(load_machine(COUNTERFLEX_SOURCE_DIR "/samples/orthoglide-groove/machine.toml"));
   bool found = false;
   for (const Parameter& parameter : all) found = found || parameter.name == "y.mount.rx_deg";
   CHECK(found);
 }
 
 TEST_CASE("a machine is unmeasured if it states sources and no compliance among them is measured") {
-  CHECK_FALSE(is_unmeasured(read_machine(arm, "arm.toml")));
+  CHECK_FALSE(is_unmeasured(read_machine(named_arm, "arm.toml")));
   CHECK(is_unmeasured(arm_with(R"("mount.x_mm" = { source = "measured" })")));
   CHECK(is_unmeasured(arm_with(R"("post.x_m_per_N" = { source = "catalogue" })")));
   CHECK_FALSE(is_unmeasured(arm_with(R"("post.x_m_per_N" = { source = "measured" })")));
@@ -109,15 +112,16 @@ TEST_CASE("a machine is unmeasured if it states sources and no compliance among 
 }
 
 TEST_CASE("bad parameters are refused at their place") {
-  CHECK(message_of(R"("mount.rz" = { source = "prior" })") ==
-        "arm.toml:27:1: error: the machine has no parameter \"mount.rz\"; did you mean \"mount.rz_deg\"?; `check "
+  CHECK(parameter_error(R"("mount.rz" = { source = "prior" })") ==
+        "arm.toml:22:1: error: the machine has no parameter \"mount.rz\"; did you mean \"mount.rz_deg\"?; "
+        "`check "
         "--parameters` lists them");
-  CHECK(message_of(R"("mount.x_mm" = { sigma = 1 })").find("source") != std::string::npos);
-  CHECK(message_of(R"("A1.compliance_rad_per_Nm" = { value = -1e-6, source = "measured" })").find("value") !=
+  CHECK(parameter_error(R"("mount.x_mm" = { sigma = 1 })").find("source") != std::string::npos);
+  CHECK(parameter_error(R"("A1.compliance_rad_per_Nm" = { value = -1e-6, source = "measured" })")
+            .find("value") != std::string::npos);
+  CHECK(parameter_error(R"("mount.x_mm" = { sigma = 1, prior_percent = 3, source = "prior" })")
+            .find("prior_percent") != std::string::npos);
+  CHECK(parameter_error(R"("mount.rx_deg" = { prior_percent = 3, source = "prior" })").find("sigma") !=
         std::string::npos);
-  CHECK(message_of(R"("mount.x_mm" = { sigma = 1, prior_percent = 3, source = "prior" })").find("prior_percent") !=
-        std::string::npos);
-  CHECK(message_of(R"("mount.rx_deg" = { prior_percent = 3, source = "prior" })").find("sigma") !=
-        std::string::npos);
-  CHECK(message_of(R"("mount.x_mm" = { source = "guess" })").find("\"guess\"") != std::string::npos);
+  CHECK(parameter_error(R"("mount.x_mm" = { source = "guess" })").find("\"guess\"") != std::string::npos);
 }

@@ -6,9 +6,9 @@
 #include <algorithm>
 #include <array>
 
+#include "counterflex/files/csv_text.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "files/csv_text.hpp"
 
 namespace counterflex::csv {
 namespace {

@@ -1,8 +1,8 @@
 #include <fmt/format.h>
 
+#include "counterflex/files/csv_text.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/forces/forces.hpp"
-#include "files/csv_text.hpp"
 #include "forces/read/selector_text.hpp"
 
 namespace counterflex {

@@ -6,10 +6,10 @@
 #include <optional>
 #include <unordered_map>
 
+#include "counterflex/files/csv_text.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "files/csv_text.hpp"
 #include "forces/path/profile/alignment.hpp"
 #include "forces/read/csv_header.hpp"
 #include "forces/read/selector_text.hpp"

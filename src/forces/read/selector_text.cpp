@@ -6,8 +6,8 @@
 #include <array>
 #include <variant>
 
+#include "counterflex/files/csv_text.hpp"
 #include "counterflex/files/text.hpp"
-#include "files/csv_text.hpp"
 
 namespace counterflex {
 

@@ -50,8 +50,8 @@ std::size_t find_parameter(const toml::key& key, const std::vector<Parameter>& a
   std::vector<std::string_view> known;
   for (const Parameter& parameter : all) known.push_back(parameter.name);
   const std::string_view meant = nearest(key.str(), known);
-  source.fail(key, fmt::format("the machine has no parameter \"{}\"{}; `check --parameters` lists them", key.str(),
-                               meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
+  source.fail(key, fmt::format("the machine has no parameter \"{}\"{}; `check --parameters` lists them",
+                               key.str(), meant.empty() ? "" : fmt::format("; did you mean \"{}\"?", meant)));
 }
 
 }  // namespace
@@ -73,7 +73,8 @@ void read_parameters(const toml::table& document, const Source& source, Machine&
     statement.name = parameter.name;
     statement.source = read_number_source(required(table, "source", "a parameter", entry, source), source);
     statement.sigma = read_sigma(table, parameter, values[index], source);
-    if (const toml::node* note = table.get("note")) statement.note = without_controls(as_text(*note, "note", source));
+    if (const toml::node* note = table.get("note"))
+      statement.note = without_controls(as_text(*note, "note", source));
     statements.emplace_back(key.source().begin, std::move(statement));
   }
   std::stable_sort(statements.begin(), statements.end(), [](const auto& a, const auto& b) {

@@ -5,8 +5,8 @@
 
 namespace counterflex::toml_file {
 
-/// Reads the optional table `parameters`. A `value` replaces that of the machine's elements; `machine` has its
-/// chains.
+/// Reads the optional table `parameters`. A `value` replaces that of the machine's elements; `machine` has
+/// its chains.
 void read_parameters(const toml::table& document, const Source& source, Machine& machine);
 
 }  // namespace counterflex::toml_file

@@ -224,6 +224,25 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
   return step;
 }
 
+Eigen::MatrixXd solve_held(const WholeSystem& system, const HeldSteps& given, const Units& units) {
+  std::vector<int> columns;
+  for (const int i : unknowns(system, false))
+    if (!given.is_held[static_cast<std::size_t>(i)]) columns.push_back(i);
+  Eigen::MatrixXd held = given.held;  // without unit
+  for (Eigen::Index i = 0; i < held.rows(); ++i) held.row(i) /= units.of_column(system.variables[i].angular);
+  const auto n = static_cast<Eigen::Index>(columns.size());
+  Eigen::MatrixXd rhs(n + system.C.rows(), held.cols());
+  rhs << -(system.A(columns, Eigen::all) * held + given.gradient(columns, Eigen::all)), -(system.C * held);
+  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
+  decomposition.setThreshold(rank_threshold);
+  decomposition.compute(bordered(system, columns, columns));
+  const Eigen::MatrixXd x = solved(decomposition, rhs);
+  Eigen::MatrixXd steps = given.held;
+  for (Eigen::Index i = 0; i < n; ++i)
+    steps.row(columns[i]) = x.row(i) * units.of_column(system.variables[columns[i]].angular);
+  return steps;
+}
+
 double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units,
              Configuration& configuration) {
   StepApplier applier{step, units};

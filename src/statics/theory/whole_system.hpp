@@ -53,6 +53,17 @@ struct WholeStep {
 WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>& controlled,
                       const Units& units);
 
+/// Given changes of an equilibrium, one a column: of the variables that are held (SI), and of the gradient at
+/// unchanged variables (without unit).
+struct HeldSteps {
+  std::vector<bool> is_held;  ///< besides the actuators; by variable
+  Eigen::MatrixXd held, gradient;
+};
+
+/// The steps of all variables (SI), one a column, that keep the equilibrium; minimum-norm ones where closures
+/// are redundant.
+Eigen::MatrixXd solve_held(const WholeSystem& system, const HeldSteps& given, const Units& units);
+
 /// Adds a step to a configuration; returns its largest entry (m, rad times l).
 double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units,
              Configuration& configuration);

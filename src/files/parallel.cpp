@@ -1,4 +1,4 @@
-#include "compensation/windows/parallel.hpp"
+#include "counterflex/files/parallel.hpp"
 
 #include <algorithm>
 #include <atomic>

@@ -1,0 +1,109 @@
+#pragma once
+/// Finds the parameters of a machine that fit measurements best.
+#include <optional>
+#include <string>
+#include <vector>
+
+#include "counterflex/identify/measurements.hpp"
+#include "counterflex/machine/parameters.hpp"
+
+namespace counterflex {
+
+/// Sets of parameters, in the order in which they are tried.
+enum class ParameterSet {
+  zeros,       ///< components of errors along or about the axis of the actuator before them
+  geometry,    ///< all components of errors
+  compliance,
+  mass,
+};
+
+/// Which rows test a fit that was made without them.
+enum class HoldOut {
+  automatic,  ///< sessions where there are several of a kind, else a fifth
+  session,    ///< each session in turn
+  region,     ///< each of four regions of the workspace in turn
+  fifth,      ///< each fifth of the rows in turn
+};
+
+struct IdentifyOptions {
+  std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance};
+  HoldOut hold_out = HoldOut::automatic;
+  bool ladder = true;  ///< a set stays only where held-out rows improve
+  int threads = 1;
+};
+
+/// One parameter after the fit. SI.
+struct IdentifiedParameter {
+  std::string name;
+  ParameterKind kind = ParameterKind::position;
+  double unit = 1;         ///< of the name's unit, in SI
+  double before = 0, value = 0;
+  double prior = 0;        ///< standard deviation before the fit
+  double sigma = 0;        ///< after it
+  bool is_default_prior = false;  ///< the machine file states none
+  bool is_identified = false;     ///< the data have more than halved its deviation
+};
+
+/// Errors of rows: distances, gauge readings in m; angles in rad.
+struct ErrorSummary {
+  std::size_t count = 0;
+  double mean = 0, rms = 0, p95 = 0, largest = 0;
+};
+
+/// Rows of one session that a fit did not see, before (the machine file) and after.
+struct HeldOutGroup {
+  std::string name;       ///< session, region or part
+  MeasurementKind kind = MeasurementKind::tracker_point;
+  ErrorSummary before, after;
+  ErrorSummary angle_before, angle_after;  ///< of orientations; count 0: none
+};
+
+/// A set of parameters that was tried.
+struct LadderStep {
+  ParameterSet set;
+  double before = 0, after = 0;  ///< mean error of held-out rows without it and with it (m)
+  double gain_scatter = 0;       ///< standard error of the gain over the groups (m)
+  bool is_kept = false;
+};
+
+/// A row whose error is far outside that of its kind.
+struct Outlier {
+  Location at;
+  std::string session;
+  double error = 0;  ///< m
+  double ratio = 0;  ///< to the robust deviation of its session
+};
+
+struct Correlation {
+  std::string a, b;
+  double value = 0;
+};
+
+struct Identification {
+  std::vector<IdentifiedParameter> parameters;  ///< those that were varied
+  Eigen::MatrixXd covariance;                   ///< SI, in the same order
+  std::vector<LadderStep> ladder;
+  std::vector<HeldOutGroup> held_out;
+  std::vector<Outlier> outliers;
+  std::vector<Location> worst;
+  std::vector<Correlation> correlations;  ///< above 0.9
+  std::optional<double> repeatability;    ///< m: rms scatter of repeated states
+  double lack_of_fit = 0;                 ///< m: rms of the residuals of positions and readings
+  int iterations = 0;
+  Machine machine;                        ///< with the identified values
+};
+
+/// Throws `InputError` (ErrorKind::machine_or_force) where the measurements cannot determine a fit: too few
+/// rows in a session, states that do not differ, states that the machine cannot reach.
+Identification identify(const Machine& machine, const Measurements& measurements, const IdentifyOptions& options);
+
+/// The text of a machine file with the identified values and standard deviations in its table [parameters].
+/// All other lines stay. `text` is the file that was read; `file` names it.
+std::string with_identified(std::string_view text, const std::string& file, const Identification& found,
+                            const std::string& note);
+
+/// For people, and as JSON ("counterflex-identification 1", with the covariance).
+std::string to_text(const Identification& found);
+std::string to_json(const Identification& found);
+
+}  // namespace counterflex

@@ -1,0 +1,63 @@
+#pragma once
+/// Measurements of a real machine: what was commanded, what acted, what a gauge or a tracker read.
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include "counterflex/machine/machine.hpp"
+
+namespace counterflex {
+
+enum class MeasurementKind {
+  tracker_point,  ///< position of a target on the flange or the tool, in the tracker's frame
+  tracker_pose,   ///< position and orientation of a probe, in the tracker's frame
+  static_push,    ///< motion of the tip along a direction under a force
+  hung_weight,    ///< the same under a mass that hangs at the tip
+  plane_contact,  ///< the tip touches a plane
+  length_bar,     ///< the tip is at one end of a bar, then at the other
+  squareness,     ///< of two linear axes
+  axis_position,  ///< tip along a direction, less the commanded one: the error of an axis at a position
+};
+
+/// How files and people name a kind: "tracker_point".
+std::string_view name_of(MeasurementKind kind);
+
+/// What the control was told, and the wrench on the tip.
+struct CommandedState {
+  Eigen::VectorXd shown;              ///< by actuator, as the control shows them (m, rad)
+  Vector6 F = Vector6::Zero();        ///< on the tip, axes of M (N, N m)
+};
+
+struct Measurement {
+  std::size_t session = 0;               ///< index into `Measurements::sessions`
+  Location at;                           ///< of its row
+  std::vector<CommandedState> states{};  ///< one; two of a push, a weight or a bar; four of a squareness
+  Pose X{};                              ///< tracker: measured, in the session's frame
+  Vector3 direction = Vector3::Zero();   ///< of the gauge, unit vector, axes of M
+  double value = 0;                      ///< m, a squareness in rad
+  double sigma = 0;                      ///< standard deviation (m; a squareness in rad)
+  double sigma_angle = 0;                ///< of an orientation (rad)
+};
+
+/// Rows that share their unknown frames: one set-up of a tracker, one plane.
+struct Session {
+  std::string name;
+  MeasurementKind kind = MeasurementKind::tracker_point;
+  bool sigma_given = false;  ///< else that of its rows is a default
+  Pose X_TB{};               ///< probe B in the tip's frame, where the search for it begins
+};
+
+struct Measurements {
+  std::vector<Session> sessions;
+  std::vector<Measurement> rows;
+};
+
+/// Reads a measurement file: CSV with the column names of the guide, or a TOML file of the format
+/// "counterflex-measurements 1", which names a CSV file and says what its columns are. Adds to `all`. Throws
+/// `InputError` (ErrorKind::machine_or_force) with line and column.
+void load_measurements(const std::string& file, const Machine& machine, Measurements& all);
+
+/// The same from CSV text.
+void read_measurements(std::string_view csv, const std::string& file, const Machine& machine, Measurements& all);
+
+}  // namespace counterflex

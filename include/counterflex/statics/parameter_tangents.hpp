@@ -1,0 +1,35 @@
+#pragma once
+/// How the tip of a loaded machine moves with the machine's parameters (machine/parameters.hpp), its
+/// actuators held. EQUATIONS.md, section 12.
+#include <memory>
+#include <vector>
+
+#include "counterflex/machine/parameters.hpp"
+#include "counterflex/statics/equilibrium.hpp"
+
+namespace counterflex {
+
+/// Tangents of one machine with respect to some of its parameters. Keeps a reference to nothing; threads may
+/// share it.
+class ParameterTangents {
+ public:
+  /// `varied`: indices into `parameters(machine)`. `model` is that of `machine`.
+  ParameterTangents(const Machine& machine, const Model& model, const std::vector<std::size_t>& varied);
+  ~ParameterTangents();
+  ParameterTangents(ParameterTangents&&) noexcept;
+
+  /// Memory for one thread.
+  StaticsWork work() const;
+
+  /// Twist of the tip (m, rad; axes of M) by parameter (SI): 6 x as many as are varied. `configuration` is an
+  /// equilibrium of the model under `load`, all of whose errors, preloads and weights act; `work` is one of
+  /// `work()`.
+  Eigen::Matrix<double, 6, Eigen::Dynamic> of_tip(const Configuration& configuration, const Load& load,
+                                                  StaticsWork& work) const;
+
+ private:
+  struct Impl;
+  std::unique_ptr<Impl> impl_;
+};
+
+}  // namespace counterflex

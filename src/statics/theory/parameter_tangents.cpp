@@ -1,0 +1,230 @@
+#include "counterflex/statics/parameter_tangents.hpp"
+
+#include <algorithm>
+#include <map>
+
+#include "counterflex/machine/parameter_places.hpp"
+#include "statics/model/home.hpp"
+#include "statics/model/part.hpp"
+#include "statics/model/tip.hpp"
+#include "statics/model/tolerances.hpp"
+#include "statics/theory/manipulator.hpp"
+
+namespace counterflex {
+
+/// Where an element is in the whole system.
+struct PartPlace {
+  int variable = 0;
+  const Part* part = nullptr;
+};
+
+/// One varied parameter.
+struct VariedParameter {
+  ParameterKind kind;
+  double value = 0;   ///< SI
+  int component = 0;  ///< of an error or a diagonal spring; -1: one parameter scales the whole spring
+  PartPlace at{};
+  Mechanism heavier{};  ///< of a mass: with 1 kg more
+};
+
+namespace {
+
+/// Fills the places of all elements of a branch, in the order in which the whole system counts its variables.
+void place_parts(const Branch& branch, const Series& series, bool weighs, int& variable,
+                 std::map<const Element*, PartPlace>& places) {
+  const int first = variable;
+  variable += series.columns;
+  std::size_t next = 0;
+  for (const Element& element : branch.elements) {
+    if (!weighs && std::holds_alternative<PointMass>(element)) continue;
+    const Part& part = series.parts[next++];
+    places[&element] = {first + part.column, &part};
+    if (const auto* group = std::get_if<Group>(&element))
+      for (std::size_t b = 0; b < group->branches.size(); ++b)
+        place_parts(group->branches[b], series.groups[part.group].branches[b], weighs, variable, places);
+  }
+}
+
+/// The state of a series whose varied errors are coordinates.
+SeriesState with_error_coordinates(const Series& plain, const Series& series, const SeriesState& state) {
+  SeriesState result{
+      Eigen::VectorXd::Zero(series.columns), Eigen::VectorXd::Zero(series.columns), state.F, {}};
+  for (std::size_t i = 0; i < series.parts.size(); ++i) {
+    const Part &from = plain.parts[i], &to = series.parts[i];
+    if (to.column < 0) continue;
+    if (from.kind == PartKind::error) {  // a spring here: transform [Exp(phi), p], as that of an error
+      result.x.segment<6>(to.column) << from.X.p, from.log_R;
+    } else {
+      const int count = columns_of(to);
+      result.x.segment(to.column, count) = state.x.segment(from.column, count);
+      result.x_nominal.segment(to.column, count) = state.x_nominal.segment(from.column, count);
+    }
+  }
+  for (std::size_t g = 0; g < series.groups.size(); ++g) {
+    GroupState group{state.groups[g].X, {}};
+    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
+      group.branches.push_back(with_error_coordinates(
+          plain.groups[g].branches[b], series.groups[g].branches[b], state.groups[g].branches[b]));
+    result.groups.push_back(std::move(group));
+  }
+  return result;
+}
+
+/// d gradient / d parameter (SI) of a compliance: its forces fall with 1 / c.
+void add_force_change(const VariedParameter& varied, const WholeSystem& system, const Units& units,
+                      const Eigen::VectorXd& deflection, Eigen::Ref<Eigen::VectorXd> column) {
+  const bool is_spring = varied.at.part->kind == PartKind::spring;
+  const int count = is_spring && varied.component < 0 ? 6 : 1, first = std::max(varied.component, 0);
+  for (int i = first; i < first + count; ++i) {
+    const int row = varied.at.variable + i;
+    const double force =
+        is_spring ? varied.at.part->K.row(i).dot(deflection) : varied.at.part->k * deflection[0];
+    column[row] -= units.of_column(system.variables[row].angular) / units.energy() * force / varied.value;
+  }
+}
+
+/// Deflections of the springs and compliances of all series, by first variable of the part.
+void collect_deflections(const Series& series, const SeriesState& state, const Stage& stage, int& variable,
+                         std::map<int, Eigen::VectorXd>& deflections) {
+  const int first = variable;
+  variable += series.columns;
+  for (const Part& part : series.parts) {
+    if (part.kind == PartKind::spring)
+      deflections[first + part.column] = spring_deflection(part, state, stage);
+    if (part.kind == PartKind::compliance)
+      deflections[first + part.column] = Eigen::VectorXd::Constant(1, joint_deflection(part, state, stage));
+    if (part.kind == PartKind::group)
+      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
+        collect_deflections(series.groups[part.group].branches[b], state.groups[part.group].branches[b],
+                            stage, variable, deflections);
+  }
+}
+
+/// How the offsets of a zero that was set under weight change with a parameter; central difference.
+Eigen::VectorXd offset_tangent(const Machine& machine, std::size_t index) {
+  std::vector<double> values;
+  for (const Parameter& parameter : parameters(machine)) values.push_back(parameter.value);
+  const double value = values[index], step = 1e-4 * value;
+  const auto offsets = [&](double moved) {
+    values[index] = moved;
+    return zero_offsets(prepare(with_parameters(machine, values)).mechanism);
+  };
+  return (offsets(value + step) - offsets(value - step)) / (2 * step);
+}
+
+}  // namespace
+
+struct ParameterTangents::Impl {
+  Mechanism plain;  ///< of the machine itself
+  Machine machine;  ///< varied errors are springs without stiffness: their coordinates are the parameters
+  Model model;      ///< of that machine; it has no home
+  std::vector<VariedParameter> varied;
+  std::vector<int> actuators;  ///< their variables
+  Eigen::MatrixXd offsets;     ///< actuators x varied: tangents of zeros that were set under weight
+
+  Configuration configuration(const Configuration& found) const {
+    Configuration result{found.X_MP, {}};
+    for (std::size_t i = 0; i < found.chains.size(); ++i)
+      result.chains.push_back(
+          with_error_coordinates(plain.chains[i], model.mechanism.chains[i], found.chains[i]));
+    return result;
+  }
+};
+
+ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
+                                     const std::vector<std::size_t>& varied)
+    : impl_(std::make_unique<Impl>(Impl{model.mechanism, machine, {}, {}, {}, {}})) {
+  const std::vector<ParameterPlace> all = parameter_places(impl_->machine);
+  const std::vector<Parameter> values = parameters(machine);
+  for (const std::size_t index : varied)
+    if (auto* error = std::get_if<AssemblyError>(all[index].element))
+      *all[index].element = Spring{error->name};
+  Mechanism& mechanism = impl_->model.mechanism;
+  mechanism = compile(impl_->machine);
+  mechanism.length = model.mechanism.length;
+  set_zero_offsets(zero_offsets(model.mechanism), mechanism);
+  int variable = 0;
+  std::map<const Element*, PartPlace> places;
+  for (std::size_t i = 0; i < machine.chains.size(); ++i)
+    place_parts(impl_->machine.chains[i], mechanism.chains[i], !mechanism.gravity.isZero(0), variable,
+                places);
+  impl_->actuators.resize(mechanism.travel.size());
+  for (const auto& [element, place] : places)
+    if (place.part->actuator >= 0)
+      impl_->actuators[static_cast<std::size_t>(place.part->actuator)] = place.variable;
+  impl_->offsets.setZero(static_cast<Eigen::Index>(mechanism.travel.size()),
+                         static_cast<Eigen::Index>(varied.size()));
+  for (const std::size_t index : varied) {
+    const ParameterPlace& place = all[index];
+    VariedParameter entry{place.kind, values[index].value, place.component};
+    if (const auto found = places.find(place.element); found != places.end()) entry.at = found->second;
+    if (place.kind == ParameterKind::mass) {
+      std::get<PointMass>(*place.element).kg += 1;
+      entry.heavier = compile(impl_->machine);
+      entry.heavier.length = model.mechanism.length;
+      std::get<PointMass>(*place.element).kg -= 1;
+      set_zero_offsets(zero_offsets(model.mechanism), entry.heavier);
+    }
+    const bool holds_zero = place.kind == ParameterKind::compliance || place.kind == ParameterKind::mass;
+    if (machine.gravity.true_at_home && holds_zero)
+      impl_->offsets.col(static_cast<Eigen::Index>(impl_->varied.size())) = offset_tangent(machine, index);
+    impl_->varied.push_back(std::move(entry));
+  }
+}
+
+ParameterTangents::~ParameterTangents() = default;
+ParameterTangents::ParameterTangents(ParameterTangents&&) noexcept = default;
+
+StaticsWork ParameterTangents::work() const {
+  return StaticsWork(impl_->model.mechanism);
+}
+
+Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configuration& found,
+                                                                   const Load& load,
+                                                                   StaticsWork& work) const {
+  const Impl& impl = *impl_;
+  const Stage stage{};
+  const Units units{impl.model.mechanism.length};
+  const Configuration configuration = impl.configuration(found);
+  const Problem problem{load, stage, nullptr};
+  std::vector<Eigen::VectorXd> heavier;
+  for (const VariedParameter& varied : impl.varied) {
+    if (varied.kind != ParameterKind::mass) continue;
+    Model model;
+    model.mechanism = varied.heavier;
+    evaluate_all(model, configuration, stage, work.impl());
+    heavier.push_back(whole_system(model, configuration, problem, work.impl()).gradient);
+  }
+  evaluate_all(impl.model, configuration, stage, work.impl());
+  const WholeSystem system = whole_system(impl.model, configuration, problem, work.impl());
+  std::map<int, Eigen::VectorXd> deflections;
+  int variable = 0;
+  for (std::size_t i = 0; i < configuration.chains.size(); ++i)
+    collect_deflections(impl.model.mechanism.chains[i], configuration.chains[i], stage, variable,
+                        deflections);
+
+  HeldSteps steps;
+  steps.is_held.assign(system.variables.size(), false);
+  const auto n = static_cast<Eigen::Index>(impl.varied.size());
+  steps.held.setZero(static_cast<Eigen::Index>(system.variables.size()), n);
+  steps.gradient.setZero(static_cast<Eigen::Index>(system.variables.size()), n);
+  std::size_t mass = 0;
+  for (Eigen::Index k = 0; k < n; ++k) {
+    const VariedParameter& varied = impl.varied[static_cast<std::size_t>(k)];
+    const int first = varied.at.variable;
+    if (varied.kind == ParameterKind::mass)
+      steps.gradient.col(k) = heavier[mass++] - system.gradient;
+    else if (varied.kind == ParameterKind::compliance)
+      add_force_change(varied, system, units, deflections.at(first), steps.gradient.col(k));
+    else
+      steps.held(first + varied.component, k) = 1;
+    for (std::size_t a = 0; a < impl.actuators.size(); ++a)
+      steps.held(impl.actuators[a], k) += impl.offsets(static_cast<Eigen::Index>(a), k);
+    if (varied.kind == ParameterKind::position || varied.kind == ParameterKind::orientation)
+      for (int i = 0; i < 6; ++i) steps.is_held[static_cast<std::size_t>(first + i)] = true;
+  }
+  const Eigen::MatrixXd moved = solve_held(system, steps, units);
+  return tip_from_platform(impl.model.mechanism, configuration.X_MP) * moved.bottomRows<6>();
+}
+
+}  // namespace counterflex
