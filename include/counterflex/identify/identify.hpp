@@ -11,8 +11,8 @@ namespace counterflex {
 
 /// Sets of parameters, in the order in which they are tried.
 enum class ParameterSet {
-  zeros,       ///< components of errors along or about the axis of the actuator before them
-  geometry,    ///< all components of errors
+  zeros,     ///< components of errors along or about the axis of the actuator before them
+  geometry,  ///< all components of errors
   compliance,
   mass,
 };
@@ -36,10 +36,10 @@ struct IdentifyOptions {
 struct IdentifiedParameter {
   std::string name;
   ParameterKind kind = ParameterKind::position;
-  double unit = 1;         ///< of the name's unit, in SI
+  double unit = 1;  ///< of the name's unit, in SI
   double before = 0, value = 0;
-  double prior = 0;        ///< standard deviation before the fit
-  double sigma = 0;        ///< after it
+  double prior = 0;               ///< standard deviation before the fit
+  double sigma = 0;               ///< after it
   bool is_default_prior = false;  ///< the machine file states none
   bool is_identified = false;     ///< the data have more than halved its deviation
 };
@@ -52,7 +52,7 @@ struct ErrorSummary {
 
 /// Rows of one session that a fit did not see, before (the machine file) and after.
 struct HeldOutGroup {
-  std::string name;       ///< session, region or part
+  std::string name;  ///< session, region or part
   MeasurementKind kind = MeasurementKind::tracker_point;
   ErrorSummary before, after;
   ErrorSummary angle_before, angle_after;  ///< of orientations; count 0: none
@@ -62,7 +62,8 @@ struct HeldOutGroup {
 struct LadderStep {
   ParameterSet set;
   double before = 0, after = 0;  ///< mean error of held-out rows without it and with it (m)
-  double gain_scatter = 0;       ///< standard error of the gain over the groups (m)
+  double gain = 0;               ///< share of the error that it removes, mean of the groups
+  double gain_scatter = 0;       ///< standard error of that mean
   bool is_kept = false;
 };
 
@@ -84,26 +85,24 @@ struct Identification {
   Eigen::MatrixXd covariance;                   ///< SI, in the same order
   std::vector<LadderStep> ladder;
   std::vector<HeldOutGroup> held_out;
-  std::vector<Outlier> outliers;
+  std::vector<Outlier> outliers;  ///< left out of the fit; the farthest 50
+  std::size_t outlier_count = 0;
   std::vector<Location> worst;
   std::vector<Correlation> correlations;  ///< above 0.9
   std::optional<double> repeatability;    ///< m: rms scatter of repeated states
   double lack_of_fit = 0;                 ///< m: rms of the residuals of positions and readings
   int iterations = 0;
-  Machine machine;                        ///< with the identified values
+  Machine machine;  ///< with the identified values
 };
 
 /// Throws `InputError` (ErrorKind::machine_or_force) where the measurements cannot determine a fit: too few
 /// rows in a session, states that do not differ, states that the machine cannot reach.
-Identification identify(const Machine& machine, const Measurements& measurements, const IdentifyOptions& options);
+Identification identify(const Machine& machine, const Measurements& measurements,
+                        const IdentifyOptions& options);
 
 /// The text of a machine file with the identified values and standard deviations in its table [parameters].
 /// All other lines stay. `text` is the file that was read; `file` names it.
 std::string with_identified(std::string_view text, const std::string& file, const Identification& found,
                             const std::string& note);
-
-/// For people, and as JSON ("counterflex-identification 1", with the covariance).
-std::string to_text(const Identification& found);
-std::string to_json(const Identification& found);
 
 }  // namespace counterflex

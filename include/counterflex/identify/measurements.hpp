@@ -22,10 +22,10 @@ enum class MeasurementKind {
 /// How files and people name a kind: "tracker_point".
 std::string_view name_of(MeasurementKind kind);
 
-/// What the control was told, and the wrench on the tip.
+/// The commanded actuator values, and the wrench on the tip.
 struct CommandedState {
-  Eigen::VectorXd shown;              ///< by actuator, as the control shows them (m, rad)
-  Vector6 F = Vector6::Zero();        ///< on the tip, axes of M (N, N m)
+  Eigen::VectorXd shown;        ///< by actuator, as the control shows them (m, rad)
+  Vector6 F = Vector6::Zero();  ///< on the tip, axes of M (N, N m)
 };
 
 struct Measurement {
@@ -53,11 +53,12 @@ struct Measurements {
 };
 
 /// Reads a measurement file: CSV with the column names of the guide, or a TOML file of the format
-/// "counterflex-measurements 1", which names a CSV file and says what its columns are. Adds to `all`. Throws
+/// "counterflex-measurements 1", which names a CSV file and defines its columns. Adds to `all`. Throws
 /// `InputError` (ErrorKind::machine_or_force) with line and column.
 void load_measurements(const std::string& file, const Machine& machine, Measurements& all);
 
 /// The same from CSV text.
-void read_measurements(std::string_view csv, const std::string& file, const Machine& machine, Measurements& all);
+void read_measurements(std::string_view csv, const std::string& file, const Machine& machine,
+                       Measurements& all);
 
 }  // namespace counterflex

@@ -236,6 +236,36 @@ void add_check(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_identify(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(app, options, "identify", Command::identify,
+                                  "Find errors and compliances of a machine from measurements",
+                                  "  counterflex identify -m robot.toml --data tracker.csv -o measured.toml\n"
+                                  "  counterflex identify -m mill.toml --data pushes.csv --fit compliance");
+  add_setting(command, options, "machine");
+  command
+      .add_option("--data", options.identify.data,
+                  "Measurements: CSV, or a description (.toml); may be repeated")
+      ->required()
+      ->type_name("FILE")
+      ->allow_extra_args(false);
+  value_option(command, "--fit", "LIST",
+               "What is fitted: zeros, geometry, compliance, mass (default: the first three)",
+               [&](const std::string& text) { options.identify.fit = text; });
+  value_option(
+      command, "--hold-out", "session|region|20%",
+      "Which rows test fits that are made without them (default: sessions if there are several, else 20%)",
+      [&](const std::string& text) { options.identify.hold_out = text; });
+  command.add_flag("--all", options.identify.all, "Keep what does not improve the rows held out, too");
+  value_option(command, "-o,--output", "OUTPUT", "Write the machine file with the identified values (.toml)",
+               [&](const std::string& text) { options.output = text; });
+  value_option(command, "--report", "STEM",
+               "Write STEM.json, all values with their covariance, and STEM.html, a page",
+               [&](const std::string& text) { options.report = text; });
+  add_settings(command, options, {"threads", "force-overwrite"});
+  add_config(command, options);
+  add_output(command, options);
+}
+
 void add_batch(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "batch", Command::batch,
                                   "Correct all programs of a list of jobs and write a summary",
@@ -284,6 +314,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);
+  add_identify(app, options);
   add_batch(app, options);
   add_watch(app, options);
 }

@@ -12,7 +12,7 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check, batch, watch };
+enum class Command { compensate, predict, verify, compare, analyze, forces, check, identify, batch, watch };
 
 /// Sources of settings besides jobs files.
 struct SettingSources {
@@ -55,6 +55,13 @@ struct AnalyzeOptions {
   bool full = false;                 ///< details of every chain
   std::optional<std::string> hold;   ///< "X,Y,Z[,R,P,Y]"
   std::optional<std::string> curve;  ///< "DIRECTION=FROM:TO:STEPS"
+};
+
+struct IdentifyOptionTexts {
+  std::vector<std::string> data;        ///< measurement files
+  std::optional<std::string> fit;       ///< "zeros,geometry"
+  std::optional<std::string> hold_out;  ///< "session", "region" or "20%"
+  bool all = false;                     ///< keep sets that do not improve held-out rows
 };
 
 struct BatchOptions {
@@ -118,6 +125,7 @@ struct Options {
   CompareOptions compare;
   ForcesOptions forces_table;
   AnalyzeOptions analyze;
+  IdentifyOptionTexts identify;
   BatchOptions batch;
   WatchOptions watch;
 

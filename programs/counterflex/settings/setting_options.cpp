@@ -250,6 +250,8 @@ bool has_setting(Command command, std::string_view option) {
       return is_of_reading(option);
     case Command::batch:
       return is_among(option, {"threads", "force-overwrite"});
+    case Command::identify:
+      return is_among(option, {"machine", "threads", "force-overwrite"});
     case Command::compare:
       return option == "force-overwrite";
   }

@@ -1,0 +1,21 @@
+#pragma once
+/// The result of an identification for people and for programs.
+#include <string>
+#include <string_view>
+
+#include "counterflex/identify/identify.hpp"
+
+namespace counterflex {
+
+/// For a terminal.
+std::string to_text(const Identification& found);
+
+/// "counterflex-identification 1": values, their covariance in the units of their names, the tests of the
+/// fit.
+std::string to_json(const Identification& found);
+
+/// One HTML file that needs nothing but itself. `machine`: its name; `files`: the measurements.
+std::string identification_page(const Identification& found, std::string_view machine,
+                                std::string_view files);
+
+}  // namespace counterflex

@@ -1,0 +1,109 @@
+#include "counterflex/identify/identify.hpp"
+
+#include <fmt/format.h>
+
+#include <filesystem>
+
+#include "commands/commands.hpp"
+#include "counterflex/files/file_writer.hpp"
+#include "counterflex/files/files.hpp"
+#include "counterflex/files/text.hpp"
+#include "counterflex/report/identification.hpp"
+#include "process/standard_output.hpp"
+#include "process/version.hpp"
+#include "run/inputs.hpp"
+#include "run/outputs.hpp"
+
+namespace counterflex::cli {
+namespace {
+
+constexpr std::string_view mark = "# Identified by counterflex";
+constexpr std::string_view report_mark = "counterflex-identification 1",
+                           page_mark = "counterflex identification";
+
+/// "zeros,geometry,compliance,mass". Throws (ErrorKind::usage).
+std::vector<ParameterSet> sets_of(const std::string& text) {
+  std::vector<ParameterSet> sets;
+  for (std::size_t begin = 0; begin <= text.size();) {
+    const std::size_t end = std::min(text.find(',', begin), text.size());
+    const std::string name = text.substr(begin, end - begin);
+    const ParameterSet set = name == "zeros"        ? ParameterSet::zeros
+                             : name == "geometry"   ? ParameterSet::geometry
+                             : name == "compliance" ? ParameterSet::compliance
+                             : name == "mass"
+                                 ? ParameterSet::mass
+                                 : throw InputError(ErrorKind::usage, {},
+                                                    fmt::format("--fit has '{}'; use a list of zeros, "
+                                                                "geometry, compliance and mass",
+                                                                name));
+    sets.push_back(set);
+    begin = end + 1;
+  }
+  return sets;
+}
+
+HoldOut hold_out_of(const std::string& text) {
+  if (text == "session") return HoldOut::session;
+  if (text == "region") return HoldOut::region;
+  if (text == "20%") return HoldOut::fifth;
+  throw InputError(ErrorKind::usage, {}, fmt::format("--hold-out is '{}'; use session, region or 20%", text));
+}
+
+/// "series_B.csv, series_C.csv": names without folders, so that the file is the same wherever it is made.
+std::string names_of(const std::vector<std::string>& files) {
+  std::string text;
+  for (const std::string& file : files)
+    text += (text.empty() ? "" : ", ") + without_controls(std::filesystem::path(file).filename().string());
+  return text;
+}
+
+/// The text without a first line that an earlier run wrote.
+std::string_view without_mark(std::string_view text) {
+  if (!text.starts_with(mark)) return text;
+  const std::size_t end = text.find('\n');
+  return end == std::string_view::npos ? "" : text.substr(end + 1);
+}
+
+}  // namespace
+
+std::optional<ErrorKind> run_identify(const Options& options, Console& console) {
+  IdentifyOptions wanted;
+  if (options.identify.fit) wanted.sets = sets_of(*options.identify.fit);
+  if (options.identify.hold_out) wanted.hold_out = hold_out_of(*options.identify.hold_out);
+  wanted.ladder = !options.identify.all;
+  wanted.threads = options.threads;
+  const std::string output = options.output.value_or(""),
+                    report = options.report ? *options.report + ".json" : "",
+                    page = options.report ? *options.report + ".html" : "";
+  if (!options.force_overwrite)
+    refuse_foreign(
+        {marked_file(output, mark), marked_file(report, report_mark), marked_file(page, page_mark)});
+  const MachineInput input = read_machine_input(options);
+  for (const std::string& data : options.identify.data)
+    for (const std::string& file : {output, report, page})
+      if (!file.empty() && canonical_name(file) == canonical_name(data))
+        throw InputError(ErrorKind::usage, {}, fmt::format("{} is an input and an output", file));
+  Measurements measurements;
+  for (const std::string& file : options.identify.data) load_measurements(file, input.machine, measurements);
+  console.progress("identifying");
+  const Identification found = identify(input.machine, measurements, wanted);
+  std::optional<FileWriter> machine_file, json_file, page_file;
+  if (!output.empty()) {
+    const std::string text = read_file(options.machine);
+    machine_file.emplace(output);
+    machine_file->write(fmt::format("{} {} from {}\n", mark, version, names_of(options.identify.data)));
+    machine_file->write(with_identified(without_mark(text), options.machine, found,
+                                        "identified from " + names_of(options.identify.data)));
+  }
+  if (!report.empty()) {
+    json_file.emplace(report);
+    json_file->write(to_json(found));
+    page_file.emplace(page);
+    page_file->write(identification_page(found, input.machine.name, names_of(options.identify.data)));
+  }
+  publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
+  write_result(options.json ? to_json(found) : to_text(found));
+  return {};
+}
+
+}  // namespace counterflex::cli

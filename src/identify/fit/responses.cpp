@@ -1,0 +1,80 @@
+#include "identify/fit/responses.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+
+#include "counterflex/files/parallel.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/shown.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t slice = 32;  // states for one thread at a time
+
+std::string shown_words(const Model& model, const Eigen::VectorXd& shown) {
+  std::string text;
+  for (Eigen::Index i = 0; i < shown.size(); ++i) {
+    const bool turns = model.mechanism.travel[static_cast<std::size_t>(i)].kind == JointKind::revolute;
+    text += fmt::format("{}{:.6g}", i == 0 ? "" : ", ", shown[i] / (turns ? deg : mm));
+  }
+  return text;
+}
+
+}  // namespace
+
+States nominal_states(const Model& model, const Measurements& measurements, int threads) {
+  States states;
+  std::vector<const Measurement*> row_of;
+  for (const Measurement& row : measurements.rows) {
+    states.first.push_back(states.state.size());
+    for (const CommandedState& state : row.states) {
+      states.state.push_back(&state);
+      row_of.push_back(&row);
+    }
+  }
+  states.nominal.resize(states.state.size());
+  std::vector<Status> found(states.state.size());
+  for_each_index((states.state.size() + slice - 1) / slice, threads, [&](std::size_t s) {
+    for (std::size_t i = s * slice; i < std::min((s + 1) * slice, states.state.size()); ++i) {
+      const NominalResult nominal =
+          nominal_forward(model, model.home, joint_values(model.mechanism.shown, states.state[i]->shown));
+      found[i] = nominal.status;
+      states.nominal[i] = nominal.configuration;
+    }
+  });
+  for (std::size_t i = 0; i < found.size(); ++i)
+    if (found[i] != Status::converged)
+      throw InputError(ErrorKind::machine_or_force, row_of[i]->at,
+                       fmt::format("the machine cannot be at the actuator values {} (mm, deg)",
+                                   shown_words(model, states.state[i]->shown)));
+  return states;
+}
+
+std::vector<Response> responses(const Machine& machine, const std::vector<std::size_t>& varied,
+                                const States& states, int threads, std::vector<Configuration>& loaded) {
+  const Model model = prepare(machine);
+  const ParameterTangents tangents(machine, model, varied);
+  std::vector<Response> found(states.state.size());
+  const bool has_starts = !loaded.empty();
+  loaded.resize(states.state.size());
+  for_each_index((found.size() + slice - 1) / slice, threads, [&](std::size_t s) {
+    StaticsWork work(model.mechanism), tangent_work = tangents.work();
+    for (std::size_t i = s * slice; i < std::min((s + 1) * slice, found.size()); ++i) {
+      const Load load{states.state[i]->F, false};
+      Equilibrium equilibrium;
+      if (has_starts) equilibrium = refine_forward(model, loaded[i], load, Stage{}, work);
+      if (equilibrium.status != Status::converged)
+        equilibrium = solve_forward(model, states.nominal[i], load, Stage{}, work);
+      found[i].status = equilibrium.status;
+      loaded[i] = equilibrium.status == Status::converged ? equilibrium.configuration : states.nominal[i];
+      if (equilibrium.status != Status::converged) continue;
+      found[i].X_MT = tip(model.mechanism, equilibrium.configuration);
+      found[i].tangents = tangents.of_tip(equilibrium.configuration, load, tangent_work);
+    }
+  });
+  return found;
+}
+
+}  // namespace counterflex

@@ -1,0 +1,33 @@
+#pragma once
+/// The machine at the commanded states of all measurements.
+#include <vector>
+
+#include "counterflex/identify/measurements.hpp"
+#include "counterflex/statics/parameter_tangents.hpp"
+
+namespace counterflex {
+
+/// The commanded states of all rows, one behind the other, at nominal configurations. They do not depend on
+/// the parameters: the control computes with the nominal machine.
+struct States {
+  std::vector<std::size_t> first;  ///< by row: its first state
+  std::vector<const CommandedState*> state;
+  std::vector<Configuration> nominal;
+};
+
+/// Throws `InputError` at the first row whose state the nominal machine cannot reach. Keeps pointers into
+/// `measurements`.
+States nominal_states(const Model& model, const Measurements& measurements, int threads);
+
+/// The tip at one state, and its tangents by the varied parameters.
+struct Response {
+  Status status = Status::not_converged;
+  Pose X_MT;
+  Eigen::Matrix<double, 6, Eigen::Dynamic> tangents;
+};
+
+/// By state. `loaded` are the equilibria found before, empty at first; they are starts, and are replaced.
+std::vector<Response> responses(const Machine& machine, const std::vector<std::size_t>& varied,
+                                const States& states, int threads, std::vector<Configuration>& loaded);
+
+}  // namespace counterflex

@@ -1,0 +1,31 @@
+#pragma once
+/// A TOML file of the format "counterflex-measurements 1": the columns of a CSV file.
+#include <functional>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include "counterflex/identify/measurements.hpp"
+#include "identify/read/columns.hpp"
+
+namespace counterflex::measurement_file {
+
+struct Description {
+  std::string file;  ///< of the description
+  std::string csv;   ///< path of the measurements
+  std::optional<MeasurementKind> kind;
+  std::string session;
+  bool is_mapped = false;                               ///< it names columns; all others are ignored
+  std::vector<std::pair<std::string, Quantity>> names;  ///< of columns in the CSV file
+  Columns constants;                                    ///< quantities that are the same in all rows
+  Pose X_TB;                                            ///< probe B in the tip's frame
+  /// The rotation that three angles (rad) of a measured orientation mean.
+  std::function<Matrix3(const Vector3&)> rotation_of = exp_so3;
+};
+
+/// Throws `InputError` (ErrorKind::machine_or_force) with line and column.
+Description read_description(std::string_view text, const std::string& file, const Machine& machine);
+
+}  // namespace counterflex::measurement_file

@@ -1,0 +1,43 @@
+#pragma once
+/// Names and units of an identification's results.
+#include <string_view>
+
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/identify/identify.hpp"
+
+namespace counterflex {
+
+inline std::string_view name_of(ParameterSet set) {
+  switch (set) {
+    case ParameterSet::zeros:
+      return "zeros";
+    case ParameterSet::geometry:
+      return "geometry";
+    case ParameterSet::compliance:
+      return "compliance";
+    case ParameterSet::mass:
+      return "mass";
+  }
+  return "";
+}
+
+struct ErrorUnit {
+  std::string_view name;
+  double si;
+};
+
+/// Of errors of rows of a kind.
+inline ErrorUnit unit_of(MeasurementKind kind) {
+  switch (kind) {
+    case MeasurementKind::squareness:
+      return {"um/m", 1e-6};
+    case MeasurementKind::static_push:
+    case MeasurementKind::hung_weight:
+    case MeasurementKind::axis_position:
+      return {"um", um};
+    default:
+      return {"mm", mm};
+  }
+}
+
+}  // namespace counterflex

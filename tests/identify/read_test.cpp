@@ -1,0 +1,102 @@
+#include <doctest/doctest.h>
+
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/identify/measurements.hpp"
+#include "counterflex/machine/read_machine.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+Machine mill() {
+  return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml");
+}
+
+Measurements read(const std::string& csv) {
+  Measurements all;
+  read_measurements(csv, "data.csv", mill(), all);
+  return all;
+}
+
+std::string error_of(const std::string& csv) {
+  try {
+    read(csv);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("columns have units in their names, and actuators have numbers or letters") {
+  const Measurements all = read(
+      "kind,session,X_mm,q2_m,Z_in,x_mm,y_m,z_in,sigma_um\n"
+      "tracker_point,one,10,0.02,1,1,2,3,40\n");
+  REQUIRE(all.rows.size() == 1);
+  CHECK(all.rows[0].states[0].shown.isApprox(Vector3(0.01, 0.02, 0.0254), 1e-12));
+  CHECK(all.rows[0].X.p.isApprox(Vector3(0.001, 2, 0.0762), 1e-12));
+  CHECK(all.rows[0].sigma == doctest::Approx(4e-5));
+  CHECK(all.sessions[0].name == "one");
+  CHECK(all.sessions[0].sigma_given);
+}
+
+TEST_CASE("semicolons come with decimal commas") {
+  const Measurements all = read(
+      "# an export\n"
+      "kind;X_mm;Y_mm;Z_mm;x_mm;y_mm;z_mm\r\n"
+      "tracker_point;1,5;2.5;-3;1E+02;0;0,25\r\n");
+  CHECK(all.rows[0].states[0].shown.isApprox(Vector3(0.0015, 0.0025, -0.003), 1e-12));
+  CHECK(all.rows[0].X.p.isApprox(Vector3(0.1, 0, 0.00025), 1e-12));
+  CHECK_FALSE(all.sessions[0].sigma_given);
+}
+
+TEST_CASE("a push has the machine with and without its force") {
+  const Measurements all = read(
+      "kind,X_mm,Y_mm,Z_mm,fx_N,fy_N,fz_N,gx,gy,gz,reading_um\n"
+      "static_push,0,0,0,200,0,0,2,0,0,7\n");
+  REQUIRE(all.rows[0].states.size() == 2);
+  CHECK(all.rows[0].states[0].F[0] == 200);
+  CHECK(all.rows[0].states[1].F.isZero(0));
+  CHECK(all.rows[0].direction.isApprox(Vector3::UnitX(), 1e-12));
+  CHECK(all.rows[0].value == doctest::Approx(7e-6));
+}
+
+TEST_CASE("the two rows of a bar are one measurement") {
+  const Measurements all = read(
+      "kind,X_mm,Y_mm,Z_mm,bar,length_mm\n"
+      "length_bar,0,0,0,a,300.01\n"
+      "length_bar,300,0,0,a,300.01\n");
+  REQUIRE(all.rows.size() == 1);
+  CHECK(all.rows[0].states.size() == 2);
+  CHECK(all.rows[0].value == doctest::Approx(0.30001));
+}
+
+TEST_CASE("a squareness names two linear axes") {
+  const Measurements all = read("kind,axes,squareness_um_per_m\nsquareness,XY,-18\n");
+  REQUIRE(all.rows.size() == 1);
+  CHECK(all.rows[0].states.size() == 4);
+  CHECK(all.rows[0].value == doctest::Approx(-18e-6));
+}
+
+TEST_CASE("bad measurements are refused at their place") {
+  CHECK(error_of("") == "data.csv: error: the file has no row with the names of its columns");
+  CHECK(error_of("kind,speed\n")
+            .starts_with("data.csv:1:6: error: unknown column \"speed\"; known columns: q1_mm, "));
+  CHECK(error_of("kind,X_mm,X_mm\n") == "data.csv:1:11: error: column \"X_mm\" is there twice");
+  const std::string header = "kind,X_mm,Y_mm,Z_mm,x_mm,y_mm,z_mm\n";
+  CHECK(
+      error_of(header + "tracker,0,0,0,0,0,0\n") ==
+      "data.csv:2:1: error: kind is \"tracker\"; it must be one of tracker_point, tracker_pose, static_push, "
+      "hung_weight, plane_contact, length_bar, squareness, axis_position");
+  CHECK(error_of(header + "tracker_point,0,0,0,0,nan,0\n") ==
+        "data.csv:2:23: error: y is \"nan\"; it must be a number");
+  CHECK(error_of(header + "tracker_point,0,0,0,0\n") ==
+        "data.csv:2:1: error: the row has 5 fields; the first row names 7 columns");
+  CHECK(error_of(header + "static_push,0,0,0,0,0,0\n") ==
+        "data.csv:2:1: error: rows of kind static_push need a column \"reading\"");
+  CHECK(error_of("kind,X_mm,Y_mm,Z_mm,bar,length_mm\nlength_bar,0,0,0,a,300\n") ==
+        "data.csv:2:1: error: bar \"a\" has one end; a bar has two rows, one for each end");
+  CHECK(error_of("kind,axes,squareness_um_per_m\nsquareness,XB,-18\n") ==
+        "data.csv:2:12: error: axes is \"XB\"; it must name two linear axes of the machine, as XY");
+}
