@@ -174,8 +174,10 @@ Move move_to(UrReading& r, const RobotLine& line, const UrTarget& target, const 
   r.robot.state.feed_mm_min = timed ? 0 : manner.speed.value_or(0) * ur_length_mm * seconds_of_minute;
   Move move = begin_robot_move(r.robot, line, Motion::feed);
   end_at_target(r.robot, target.numbers, {.passes = manner.zone.length_mm > 0, .zone = manner.zone}, move);
-  if (timed && manner.time && *manner.time > 0 && all_known(move.known_start))
-    move.feed_mm_min = (move.end_mm - move.start_mm).norm() / *manner.time * seconds_of_minute;
+  if (timed && manner.time && *manner.time > 0) {
+    move.feed_mode = FeedMode::inverse_time;
+    move.feed_per_min = seconds_of_minute / *manner.time;
+  }
   if (timed || manner.unknown_zone_before) move.may_split = move.may_jump = false;
   return move;
 }

@@ -77,7 +77,8 @@ TEST_CASE("a move that stops, that states its time or that follows an unknown zo
   CHECK(program.moves[2].exact_stop);
   CHECK(!program.moves[3].exact_stop);
   CHECK(!program.moves[3].may_split);
-  CHECK(program.moves[3].feed_mm_min == doctest::Approx(30000));  // 1 m in 2 s
+  CHECK(program.moves[3].feed_mode == FeedMode::inverse_time);
+  CHECK(program.moves[3].feed_per_min == doctest::Approx(30));  // in 2 s
   CHECK(!program.moves[4].may_split);
   CHECK(!program.moves[5].may_split);
   CHECK(program.moves[6].may_split);
