@@ -104,10 +104,6 @@ void count_points(const Move& move, std::size_t inserted, std::size_t most, Poin
   if (most > 0 && points.after > most && points.first_line_beyond == 0) points.first_line_beyond = move.line;
 }
 
-bool has_words(const Move& move) {
-  return move.words[0] || move.words[1] || move.words[2];
-}
-
 }  // namespace
 
 std::string with_changes(std::string_view text, Span within, std::vector<TextChange>& changes) {
@@ -157,9 +153,6 @@ std::string RobotWriter::header_text(const std::string& line) const {
   return std::string(comment_mark_).append(" ").append(line).append(line_end_);
 }
 
-void RobotWriter::shift_statement(const Program&, const Move&, const Vector3&,
-                                  std::vector<TextChange>&) const {}
-
 std::string RobotWriter::smaller_zone(const Program& program, const TargetZone& zone, double) const {
   return std::string(part(program.text, zone.words));
 }
@@ -204,8 +197,6 @@ void RobotWriter::write_move(const MoveEdit& edit, Output& o) {
   assert(edit.inserted.empty() || move.may_split);
   assert(!edit.jump || move.may_jump);
   position_ = known_text_position(move, position_);
-  if (move.handling == Handling::held && !has_words(move))
-    return shift_statement(o.program, move, edit.end_mm - move.end_mm, o.changes);
   const std::vector<double> spacings =
       spacings_of(place_of(position_), written_points(move, &edit, options_));
   auto spacing = spacings.begin();

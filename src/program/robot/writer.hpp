@@ -46,11 +46,6 @@ class RobotWriter : public ProgramWriter {
   virtual void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                              std::vector<TextChange>& changes) const;
 
-  /// Appends the changes that shift all positions in the statement of `move` by `shift_mm`: of a held move
-  /// that has no words of its own. The default changes nothing.
-  virtual void shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
-                               std::vector<TextChange>& changes) const;
-
   /// The words of a zone that is at most half of `spacing_mm`. Of a language whose moves have zones.
   virtual std::string smaller_zone(const Program& program, const TargetZone& zone, double spacing_mm) const;
 

@@ -2,7 +2,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cmath>
 
 #include "program/robot/kuka/read.hpp"
 #include "program/text/lex.hpp"
@@ -186,28 +185,12 @@ void read_line(KrlReading& r, const RobotLine& line, std::string_view head,
   add_target_move(r.robot, line, *target, with_zone(r, statement, {.relative = relative}));
 }
 
-/// The angle of CA (deg); empty without one, NaN for an expression.
-std::optional<double> circle_angle(std::string_view text, const MotionStatement& statement) {
-  for (const Operand& operand : statement.operands)
-    if (krl_word(part(text, operand.span)) == "CA") {
-      const auto number = number_at(text, behind_blanks(text, operand.span.end, text.size()));
-      return number ? number->value : NAN;
-    }
-  return std::nullopt;
-}
-
-/// Full turns end where they begin: both points are shifted with the correction that holds there.
-void add_full_turns(KrlReading& r, const RobotLine& line) {
-  Move move = begin_robot_move(r.robot, line, Motion::feed);
-  move.known_end = move.known_start;
-  move.handling = Handling::held;
-  move.may_insert_words = false;
-  r.robot.program.moves.push_back(std::move(move));
-  note_uncorrected(r.robot, line, "CIRC with full turns (CA) is shifted as a whole");
+bool ends_at_angle(std::string_view text, const MotionStatement& statement) {
+  return std::ranges::any_of(
+      statement.operands, [&](const Operand& operand) { return krl_word(part(text, operand.span)) == "CA"; });
 }
 
 void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& statement) {
-  constexpr double turn = 360;
   const std::string_view text = r.robot.program.text;
   if (statement.operands.size() < 2)
     refuse(r.robot.program.file, line, line.code.begin,
@@ -216,7 +199,6 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
   for (std::size_t i = 0; i < 2; ++i)
     if (const auto aggregate = aggregate_of(r, line, "CIRC", statement.operands[i]))
       targets[i] = krl_target(*aggregate);
-  const auto angle = circle_angle(text, statement);
   std::string why = r.why_not_followed;
   if (!targets[0] || !targets[1]) why = run_time;
   if (!statement.operands[0].aggregate || !statement.operands[1].aggregate)
@@ -224,8 +206,10 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
   if (r.turns_with_path) why = "$CIRC_TYPE=#PATH turns the tool with the path";
   if (in_body(r)) why = in_a_body;
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
-  if (angle && *angle != 0 && std::fmod(*angle, turn) == 0) return add_full_turns(r, line);
-  if (angle) return add_unfollowed_move(r.robot, line, "CIRC ends at an angle (CA), not at its end point");
+  if (ends_at_angle(text, statement))
+    return add_unfollowed_move(r.robot, line,
+                               "CIRC ends at an angle (CA), not at its end point; write CIRC without CA, two "
+                               "for a full circle");
   constexpr std::string_view unknown_circle =
       "the circle of CIRC is not known: its start is not, or a number of its points is missing, or they lie "
       "on "

@@ -150,18 +150,4 @@ void KukaWriter::change_target(const Program& program, const Move& move, const T
     changes.push_back({name_of_target(program, move), with_changes(program.text, target->span, own)});
 }
 
-void KukaWriter::shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
-                                 std::vector<TextChange>& changes) const {
-  for (const KrlAggregate& point : aggregates_of(program, move))
-    for (const KrlComponent& component : point.components) {
-      const std::size_t axis = component.name.size() == 1 ? krl_axes.find(component.name[0]) : krl_axes.npos;
-      if (axis == krl_axes.npos || !component.number) continue;
-      const RobotNumber& number = *component.number;
-      const double wanted = number.value + shift_mm[static_cast<Eigen::Index>(axis)];
-      const int decimals = std::max(number.decimals, resolution_decimals(move.unit));
-      if (rounds_to(number.value, wanted, decimals)) continue;
-      changes.push_back({number.span, number_text(program.text, number.span, wanted, decimals)});
-    }
-}
-
 }  // namespace counterflex

@@ -21,8 +21,6 @@ class KukaWriter final : public RobotWriter {
   std::size_t header_position(const Program& program) const override;
   void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                      std::vector<TextChange>& changes) const override;
-  void shift_statement(const Program& program, const Move& move, const Vector3& shift_mm,
-                       std::vector<TextChange>& changes) const override;
 
   std::map<std::string, std::size_t, std::less<>> uses_{};  ///< of variables, if targets have names
 };

@@ -195,25 +195,6 @@ TEST_CASE("a CIRC is split into arcs, or into lines where it has no centre") {
         "END\n");
 }
 
-TEST_CASE("full turns by CA are shifted as a whole, other angles are not followed") {
-  const Program program = read_statements(
-      "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
-      "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0}, CA 360\n"
-      "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0}, CA 90 C_DIS\n");
-  REQUIRE(program.moves.size() == 3);
-  CHECK(program.moves[1].handling == Handling::held);
-  CHECK(program.moves[1].end_mm == Vector3(10, 0, 0));
-  CHECK(program.moves[2].fixed[0]);
-  MoveEdit turn = robot_edit(program, 1);
-  turn.end_mm = {10.01, 0, -0.0004};
-  CHECK(rewrite(program, {turn}, {}).text ==
-        "DEF job()\n"
-        "PTP {X 10,Y 0,Z 0,A 0,B 0,C 0}\n"
-        "CIRC {X 0.01,Y 10,Z 0}, {X -9.99,Y 0,Z 0}, CA 360\n"
-        "CIRC {X 0,Y 10,Z 0}, {X -10,Y 0,Z 0}, CA 90 C_DIS\n"
-        "END\n");
-}
-
 TEST_CASE("a named target is changed where it is declared, or in the moves if several use it") {
   const Program program = read_statements(
       "DECL E6POS P1={X 0,Y 0,Z 5,A 0,B 0,C 0,S 2,T 10,E1 5}\n"
