@@ -10,6 +10,7 @@
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/turn.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/arc_turn.hpp"
 #include "counterflex/program/boxed_optional.hpp"
 
 namespace counterflex {
@@ -82,6 +83,9 @@ enum class PolarEnd : std::uint8_t { none, by_angle, in_direction };
 struct ArcPoint {
   Vector3 p_mm = Vector3::Zero();
   Vector3 normal = Vector3::UnitZ();  ///< of the plane of the points; the arc is counter-clockwise about it
+  double share = 0.5;                 ///< of the sweep, from the start of the arc to this point
+  /// What an arc in place of this one, or of a piece of it, must keep to be read as an arc; empty: nothing.
+  std::optional<ArcTurnLimits> turn_limits{};
 };
 
 /// The arc of a feed move under G2 or G3, in program coordinates (mm), or of CIRC and its like. It begins and

@@ -107,6 +107,10 @@ TextPosition text_position_between(const Move& last, const Move& next, const Tex
 Curve as_written(const Move& move, const TextPosition& before, const Via& via, bool is_end,
                  const WriteOptions& options);
 
+/// The share of `sweep` (rad) at which the auxiliary point of an arc is written that takes the place of the
+/// arc of `move`, or of a part of it: that of the original for the same sweep, else the middle.
+double share_of_point(const Move& move, double sweep);
+
 /// Points of a robot program, from its first window on: targets, or what the control counts (SizeLimit).
 struct PointCount {
   std::size_t before = 0;     ///< in the original

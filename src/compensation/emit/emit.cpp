@@ -52,15 +52,18 @@ void Emitter::emit_segment(std::size_t s) {
   EmittedMove& emitted = out_.moves.emplace_back();
   emitted.edit.move = segment.move;
   emitted.kind = Kind::segment;
-  double unsplit_miss = planned.unsplit_miss, jump = 0;
+  UnsplitMiss miss{.position = planned.unsplit_miss};
+  double jump = 0;
+  start_turn_ = state_.turn;
+  end_turn_ = end_of(planned).turn;
   const bool jumps = put_jump(segment, planned, emitted, jump);
   if (segment.wanted.arc)
-    emit_arc(segment, planned, emitted, unsplit_miss);
+    emit_arc(segment, planned, emitted, miss);
   else
-    emit_line(segment, planned, emitted, unsplit_miss);
+    emit_line(segment, planned, emitted, miss);
   // A block that must stay one begins where the last one ended.
-  if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) unsplit_miss += jump;
-  finish_segment(segment, planned, unsplit_miss, emitted);
+  if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) miss.position += jump;
+  finish_segment(segment, planned, miss, emitted);
 }
 
 namespace {
@@ -95,6 +98,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   if (!jumps) return false;
   if (!move.may_jump && !move.may_split) return true;
   const Via begin = via_of(move, planned.start, 0);
+  start_turn_ = planned.start.turn;
   if (move.may_jump)
     emitted.edit.jump = begin;
   else
@@ -104,7 +108,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
 }
 
 void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                        double& unsplit_miss) {
+                        UnsplitMiss& miss) {
   const Move& move = job_.program.moves[segment.move];
   for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
     emitted.edit.inserted.push_back(via_of(move, planned.knots[k], planned.knots[k].u));
@@ -117,10 +121,10 @@ void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, E
   }
   const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), emitted.edit);
   if (miss_mm * mm > (1 - height_share) * job_.options.tolerance)
-    unsplit_miss = std::max(unsplit_miss, miss_mm * mm);
+    miss.position = std::max(miss.position, miss_mm * mm);
 }
 
-void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
+void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, const UnsplitMiss& miss,
                              EmittedMove& emitted) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 correction = end_of(planned).target - segment.wanted.end;
@@ -129,15 +133,19 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
   const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
   if (ends_elsewhere) kept = correction_where_held(move, kept);
   emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
-  state_.turn = end_of(planned).turn;
+  state_.turn = end_turn_;
   emitted.edit.orientation = turned_words(job_, move, 1, state_.turn);
   hold(kept, {true, true, true});
   if (emitted.in_part)
     list_held_words(move, correction - kept);
-  else if (unsplit_miss > 0)
+  else if (miss.position > 0)
     list(move,
          fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
-                     unsplit_miss / mm));
+                     miss.position / mm));
+  if (miss.turn > 0)
+    list(move, fmt::format("not split, and the control turns the tool with the path: the orientation at its "
+                           "end stays off by {:.4f} degrees",
+                           miss.turn / deg));
   take_in(emitted.edit);
   if (ends_elsewhere && move.polar) {
     for (std::size_t axis = 0; axis < 3; ++axis) state_.held[axis] = piece_held_[axis];

@@ -1,5 +1,6 @@
 // Arcs: one where it is good enough, else several, and chords of the corrected curve only where no arc fits.
 #include <algorithm>
+#include <cmath>
 
 #include "compensation/emit/emitter.hpp"
 #include "compensation/plan/arc_pieces.hpp"
@@ -14,15 +15,15 @@ constexpr double sampling_share = 0.03;  // of the tolerance: for what happens b
 }  // namespace
 
 void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                       double& unsplit_miss) {
+                       UnsplitMiss& miss) {
   const Move& move = job_.program.moves[segment.move];
-  if (!move.may_split)
-    return put_one_arc(arc_task(segment, planned, planned.arc.front()), emitted, unsplit_miss);
+  if (!move.may_split) return put_one_arc(arc_task(segment, planned, planned.arc.front()), emitted, miss);
   for (const CorrectionCurve& stretch : planned.arc) {
     const ArcTask task = arc_task(segment, planned, stretch);
     const double begin = stretch.begin(), end = stretch.end();
     if (begin > 0) {  // a step of the force
-      const Via step{task.commanded(begin)};
+      Via step{task.commanded(begin)};
+      if (move.orientation) step.orientation = task.turned(begin);
       go_through(move, step, piece_held_);
       emitted.edit.inserted.push_back(step);
     }
@@ -32,11 +33,8 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       return;
     }
     piece_held_ = pieces.held;
-    for (std::size_t i = 0; i < pieces.vias.size(); ++i) {
-      const double u = pieces.ends[i];
-      pieces.vias[i].orientation =
-          turned_words(job_, move, u, command_at(job_, segment, u, stretch.at(u)).turn);
-    }
+    for (std::size_t i = 0; move.orientation && i < pieces.vias.size(); ++i)
+      pieces.vias[i].orientation = task.turned(pieces.ends[i]);
     if (end == 1) {
       emitted.edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
@@ -45,7 +43,8 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
   }
 }
 
-// `stretch`: of the correction, without a step of the force; borrowed, as are `segment` and the job.
+// `stretch`: of the correction, without a step of the force; borrowed, as are `segment` and the job. The move
+// begins with the orientation that the text holds.
 ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
                           const CorrectionCurve& stretch) const {
   const Move& move = job_.program.moves[segment.move];
@@ -57,6 +56,11 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
               [&segment, &stretch, X_WM](double u) {
                 return Vector3(X_WM * (point_at(segment.wanted, u) + shift_of(stretch.at(u))) / mm);
               },
+          .turned =
+              [&job = job_, &move, &segment, &stretch, start = start_turn_, end = end_turn_](double u) {
+                const Vector3 inside = command_at(job, segment, u, stretch.at(u)).turn;
+                return *turned_words(job, move, u, u == 0 ? start : u == 1 ? end : inside);
+              },
           .begin = stretch.begin(),
           .end = stretch.end(),
           .corners = job_.forces.breaks(index_of(segment)),
@@ -64,9 +68,42 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
           .chord_room_mm = room_between_points(job_, segment, planned.gain).value_or(0) / mm};
 }
 
+namespace {
+
+/// The numbers of the orientation at the end of `task` with `share` of its turn about other axes than
+/// `normal`.
+OrientationNumbers end_with_share(const ArcTask& task, const Vector3& normal, double share) {
+  const OrientationForm form = task.move.orientation->form;
+  const OrientationNumbers end = task.turned(1);
+  const Matrix3 R_start = rotation_of(form, task.turned(0));
+  const Vector3 phi = rotation_between(rotation_of(form, end), R_start);
+  const Vector3 about_normal = phi.dot(normal) * normal;
+  return numbers_of(form, exp_so3(about_normal + share * (phi - about_normal)) * R_start, end);
+}
+
+/// The end of a whole arc with as much of its turn about other axes as the control allows; empty if it allows
+/// the arc with none.
+std::optional<OrientationNumbers> allowed_end(const ArcTask& task, const ArcPiece& whole, const Curve& read) {
+  constexpr int halvings = 10;
+  const auto end_at = [&](double share) { return end_with_share(task, read.arc->normal, share); };
+  const auto is_allowed = [&](double share) {
+    ArcTask other = task;
+    other.turned = [start = task.turned(0), end = end_at(share)](double u) { return u == 0 ? start : end; };
+    return keeps_turn_limits(other, whole, read);
+  };
+  if (!is_allowed(0)) return std::nullopt;
+  double share = 0;
+  for (double step = 0.5; step > std::ldexp(1.0, -halvings); step /= 2)
+    if (is_allowed(share + step)) share += step;
+  return end_at(share);
+}
+
+}  // namespace
+
 // Under exact stop: the best single arc there is, and what it misses.
-void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss) {
-  FittedArc fit = fit_arc(task, {0, 1, true, piece_held_});
+void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, UnsplitMiss& miss) {
+  const ArcPiece whole{0, 1, true, piece_held_};
+  FittedArc fit = fit_arc(task, whole);
   if (task.move.polar) {
     const FittedArc polar = fit_polar_arc(task, piece_held_);
     if (polar.sound && (!fit.sound || polar.miss_mm < fit.miss_mm)) fit = polar;
@@ -75,10 +112,28 @@ void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, double& uns
     refuse(
         task.move,
         "this arc must stay one block, and none within the control's radius rules follows the corrected one");
+  if (fit.sound && !keeps_turn_limits(task, whole, fit.read)) keep_turn_limits(task, fit, miss);
   emitted.edit.centre_mm = fit.via.centre_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
     piece_held_[axis] = fit.read.end[static_cast<Eigen::Index>(axis)];
-  if (fit.miss_mm > task.tolerance_mm) unsplit_miss = std::max(unsplit_miss, fit.miss_mm * mm);
+  if (fit.miss_mm > task.tolerance_mm) miss.position = std::max(miss.position, fit.miss_mm * mm);
+}
+
+// The control would not turn the tool about one axis: the end keeps as much of its turn as it allows.
+void Emitter::keep_turn_limits(const ArcTask& task, const FittedArc& fit, UnsplitMiss& miss) {
+  const Move& move = task.move;
+  const OrientationForm form = move.orientation->form;
+  const auto end = allowed_end(task, {0, 1, true, piece_held_}, fit.read);
+  const Matrix3 R_wanted = rotation_of(form, task.turned(1)),
+                R_end = rotation_of(form, end.value_or(task.turned(1)));
+  const double off = rotation_between(R_end, R_wanted).norm();
+  if (!end || off > job_.options.tilt_tolerance)
+    return refuse(
+        move,
+        "this arc must stay one block, and along the corrected one the control turns the tool with the "
+        "path, not about one axis; let it pass the end of the arc in a zone, or replace the arc by lines");
+  miss.turn = off;
+  end_turn_ = frame(move).X_MW.R * rotation_between(R_end, rotation_of(form, move.orientation->end));
 }
 
 }  // namespace counterflex

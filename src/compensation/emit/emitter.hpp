@@ -27,12 +27,17 @@ class Emitter {
   using Kind = EmittedMove::Kind;
   using Index = std::optional<std::size_t>;  ///< of a segment, where a move has one
 
+  /// What a move that is not split misses: inside of it (m), and of the orientation at its end (rad).
+  struct UnsplitMiss {
+    double position = 0, turn = 0;
+  };
+
   // emit.cpp
   void emit_move(std::size_t m, Index s);
   void emit_segment(std::size_t s);
   void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                 double& unsplit_miss);
-  void finish_segment(const Segment& segment, const PlannedSegment& planned, double unsplit_miss,
+                 UnsplitMiss& miss);
+  void finish_segment(const Segment& segment, const PlannedSegment& planned, const UnsplitMiss& miss,
                       EmittedMove& emitted);
   /// A point of the text for a command at a fraction of the move.
   Via via_of(const Move& move, const TargetCommand& command, double u) const;
@@ -50,10 +55,11 @@ class Emitter {
 
   // emit_arc.cpp
   void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                double& unsplit_miss);
+                UnsplitMiss& miss);
   ArcTask arc_task(const Segment& segment, const PlannedSegment& planned,
                    const CorrectionCurve& stretch) const;
-  void put_one_arc(const ArcTask& task, EmittedMove& emitted, double& unsplit_miss);
+  void put_one_arc(const ArcTask& task, EmittedMove& emitted, UnsplitMiss& miss);
+  void keep_turn_limits(const ArcTask& task, const FittedArc& fit, UnsplitMiss& miss);
 
   // emit_held.cpp
   void emit_fixed(std::size_t m);
@@ -120,6 +126,8 @@ class Emitter {
   std::optional<std::size_t> held_for_;      // the move in whose coordinates the held position is
   bool group_in_xy_ = false;                 // the contour group that is being emitted
   std::optional<GroupMotion> group_motion_;  // none: it holds the correction with which it was entered
+  Vector3 start_turn_ = Vector3::Zero();     // of the correction, where the segment begins in the text (rad)
+  Vector3 end_turn_ = Vector3::Zero();       // the same at its end
   TextPosition piece_held_{};                // where the pieces of the move that is being fitted have come
   PlaceSolver solver_;
 };

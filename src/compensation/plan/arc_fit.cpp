@@ -19,6 +19,7 @@ constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double most_sweep_change = 0.1;  // rad
 constexpr double same_mm = 1e-9;
+constexpr double turn_margin = 2e-5;  // rad: for the digits of orientations, and of the places of an arc
 
 // What the pieces of one arc are compared with.
 struct Sample {
@@ -206,6 +207,20 @@ class PieceFit {
 
 FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece) {
   return PieceFit(task, piece).run();
+}
+
+bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
+  const Move& move = task.move;
+  if (!read.arc || !move.orientation || !move.arc->through || !move.arc->through->turn_limits) return true;
+  const MoveOrientation& original = *move.orientation;
+  const OrientationNumbers start = task.turned(piece.u0), end = task.turned(piece.u1);
+  const bool is_kept = piece.u0 == 0 && piece.u1 == 1 && start == original.start && end == original.end &&
+                       keeps_words(task, piece, {.read = read});
+  const ArcTurn turn{.normal = read.arc->normal,
+                     .sweep = read.arc->sweep,
+                     .point_share = share_of_point(move, read.arc->sweep),
+                     .turn = {rotation_of(original.form, start), rotation_of(original.form, end), {}, {}}};
+  return is_kept || keeps_limits(*move.arc->through->turn_limits, turn, turn_margin);
 }
 
 FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from) {

@@ -10,12 +10,16 @@ namespace counterflex {
 /// A point at a fraction.
 using PointAt = std::function<Vector3(double u)>;
 
+/// The numbers of an orientation at a fraction.
+using OrientationAt = std::function<OrientationNumbers(double u)>;
+
 /// An arc of a program and the curve that its commands should follow.
 struct ArcTask {
   const Move& move;
   const WriteOptions& options;
-  Curve source;       ///< the move's own way, program coordinates (mm)
-  PointAt commanded;  ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  Curve source;            ///< the move's own way, program coordinates (mm)
+  PointAt commanded;       ///< wanted position and correction at a fraction of it, program coordinates (mm)
+  OrientationAt turned{};  ///< the same of the orientation, for a move that has one
   double begin = 0, end = 1;    ///< fractions between which `commanded` has no step
   std::vector<double> corners;  ///< fractions where the correction has corners
   double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
@@ -44,6 +48,10 @@ struct FittedArc {
 /// else with a fitted one. The mismatch of its radii is at most the source's and one digit, else it is not
 /// sound.
 FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
+
+/// Whether the control turns the tool about one axis along a piece that is written as `read`. A piece that
+/// changes nothing is as the original.
+bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& read);
 
 /// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start.
 FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);

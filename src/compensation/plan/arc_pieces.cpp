@@ -94,6 +94,7 @@ class ArcDivider {
     const ArcPiece piece{u0, u1, u1 == 1, from};
     FittedArc fit = fit_arc(task_, piece);
     if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
+    if (!keeps_turn_limits(task_, piece, fit.read)) return std::nullopt;
     const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit);
     if (!stays && must_halve(task_, u0, u1)) return std::nullopt;
     return fit;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <utility>
 
+#include "counterflex/geometry/curve.hpp"
 #include "program/gcode/frames.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/text/arc_radius.hpp"
@@ -207,6 +208,7 @@ bool go_through(const RobotTarget& point, Move& move) {
   const auto arc = arc_through(move.start_mm, through.p_mm, move.end_mm);
   if (!arc || !((arc->centre - move.start_mm).norm() < largest_radius_mm)) return false;
   through.normal = arc->normal;
+  through.share = sweep_between(move.start_mm, through.p_mm, arc->centre, arc->normal) / arc->sweep;
   Eigen::Index nearest = 0;
   arc->normal.cwiseAbs().maxCoeff(&nearest);
   way.normal = static_cast<int>(nearest);
@@ -215,6 +217,16 @@ bool go_through(const RobotTarget& point, Move& move) {
   way.through = through;
   move.arc = way;
   return true;
+}
+
+bool limit_turn(const ArcTurnLimits& limits, Move& move) {
+  const Vector3 normal = normal_of(*move.arc);
+  move.arc->through->turn_limits = limits;
+  return keeps_limits(limits,
+                      {.normal = normal,
+                       .sweep = sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal),
+                       .point_share = move.arc->through->share,
+                       .turn = written_turn_of(*move.orientation)});
 }
 
 void add_target_move(RobotReading& r, const RobotLine& line, const RobotTarget& target,

@@ -74,6 +74,10 @@ void end_at_target(RobotReading& reading, const RobotTarget& target, const Targe
 /// an end or a coordinate of the point is not, or the three points lie nearly on a line.
 bool go_through(const RobotTarget& point, Move& move);
 
+/// Gives the arc of `move` the limits that its control has for turns of the tool. False if the arc itself
+/// does not keep them.
+bool limit_turn(const ArcTurnLimits& limits, Move& move);
+
 /// The same as `end_at_target` with a new move, which is added to the program.
 void add_target_move(RobotReading& reading, const RobotLine& line, const RobotTarget& target,
                      const TargetMove& how);

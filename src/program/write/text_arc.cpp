@@ -90,23 +90,13 @@ bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Plac
   return piece.arc->sweep > most + angle_that_digits_may_add;
 }
 
-/// The fraction of the auxiliary point on the arc of `piece`: as in the original for a piece of the same
-/// sweep, else the middle.
-double fraction_of_point(const Move& move, const Arc& piece) {
-  constexpr double most_other_sweep = 0.1;  // of the original's
-  const ArcMove& arc = *move.arc;
-  const double whole = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
-  if (std::abs(piece.sweep - whole) > most_other_sweep * whole) return 0.5;
-  return sweep_of(arc, move.start_mm, arc.through->p_mm, arc.centre_mm) / whole;
-}
-
 /// The auxiliary point, and the arc that a control reads through the rounded point.
 std::optional<ArcWords> round_point(const Move& move, const Via& via, Place place,
                                     const WriteOptions& options, ArcWords words) {
   const ArcMove& arc = *move.arc;
   Curve wanted{words.curve.start, via.end_mm, Arc{*via.centre_mm, normal_of(arc), 0}};
   wanted.arc->sweep = sweep_of(arc, wanted.start, wanted.end, *via.centre_mm);
-  const Vector3 point = point_at(wanted, fraction_of_point(move, *wanted.arc));
+  const Vector3 point = point_at(wanted, share_of_point(move, wanted.arc->sweep));
   Vector3 written;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double unit = mm_per(move.unit);
@@ -120,6 +110,13 @@ std::optional<ArcWords> round_point(const Move& move, const Via& via, Place plac
 }
 
 }  // namespace
+
+double share_of_point(const Move& move, double sweep) {
+  constexpr double most_other_sweep = 0.1;  // of the original's
+  const ArcMove& arc = *move.arc;
+  const double whole = sweep_of(arc, move.start_mm, move.end_mm, arc.centre_mm);
+  return std::abs(sweep - whole) > most_other_sweep * whole ? 0.5 : arc.through->share;
+}
 
 Curve polar_arc(const Move& move, const Vector3& start, const Vector3& centre_mm) {
   const ArcMove& arc = *move.arc;

@@ -1,10 +1,6 @@
 // Motion statements: J, L and C.
 #include <fmt/format.h>
 
-#include <Eigen/Geometry>
-#include <algorithm>
-#include <cmath>
-
 #include "program/robot/fanuc/read.hpp"
 #include "program/text/lex.hpp"
 
@@ -122,28 +118,13 @@ Matrix3 rotation_of_target(const RobotTarget& target) {
   return rotation_of(OrientationForm::fixed_axes, numbers);
 }
 
-/// Angle (rad, 0 to 2 pi) from `a` to `b` about the unit vector `n`.
-double angle_about_normal(const Vector3& n, const Vector3& a, const Vector3& b) {
-  const double angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
-  return angle < 0 ? angle + 2 * pi : angle;
-}
-
-/// Whether the tool at the auxiliary point has the orientation of one turn from start to end, so that it does
-/// not matter whether the control uses the orientation of that point.
-bool turns_evenly(const TpPoint& through, const Move& move) {
-  constexpr double room = 0.5 * deg;
-  const Vector3 n = normal_of(*move.arc), start = move.start_mm - move.arc->centre_mm;
-  const double sweep = angle_about_normal(n, start, move.end_mm - move.arc->centre_mm);
-  const double before = angle_about_normal(n, start, move.arc->through->p_mm - move.arc->centre_mm);
-  const Matrix3 expected = orientation_at(written_turn_of(*move.orientation), before / sweep);
-  return rotation_between(rotation_of_target(through.target), expected).norm() <= room;
-}
+/// Largest difference (rad) between the orientation of an auxiliary point and that of the tool there.
+constexpr double room_of_auxiliary_point = 0.5 * deg;
 
 /// A copy of C keeps the orientation of the auxiliary point.
 bool keeps_orientation(const Move& move) {
-  constexpr double room = 0.5 * deg;
   const Turn turn = turn_of(*move.orientation);
-  return rotation_between(turn.end, turn.start).norm() <= room;
+  return rotation_between(turn.end, turn.start).norm() <= room_of_auxiliary_point;
 }
 
 void add_circle(TpReading& r, const RobotLine& line, const TpMotion& motion,
@@ -161,7 +142,10 @@ void add_circle(TpReading& r, const RobotLine& line, const TpMotion& motion,
   end_at_target(r.robot, points[1].target, {.passes = motion.passes}, move);
   if (!go_through(points[0].target, move))
     return circle_not_followed("the points of C and its start lie on a line");
-  if (!turns_evenly(points[0], move))
+  // With the orientation of one turn from start to end it does not matter whether the control uses that of
+  // the point.
+  if (!limit_turn({.R_point = rotation_of_target(points[0].target), .point_room = room_of_auxiliary_point},
+                  move))
     return circle_not_followed("the orientation at the auxiliary point of C is not on the turn to its end");
   keep_whole(r, motion, points[1], move);
   if (!keeps_orientation(move)) move.may_split = move.may_jump = false;

@@ -128,12 +128,6 @@ void keep_whole(RapidReading& r, const MoveArguments& motion, Move& move) {
     if (motion.text.has(option)) move.may_split = move.may_jump = false;
 }
 
-/// Angle (rad, 0 to 2 pi) from `a` to `b` about the unit vector `n`.
-double angle_about(const Vector3& n, const Vector3& a, const Vector3& b) {
-  const double angle = std::atan2(n.dot(a.cross(b)), a.dot(b));
-  return angle < 0 ? angle + 2 * pi : angle;
-}
-
 OrientationNumbers orientation_of(const RobotTarget& target) {
   OrientationNumbers numbers{};
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] = target.orientation[i]->value;
@@ -143,34 +137,24 @@ OrientationNumbers orientation_of(const RobotTarget& target) {
 /// Largest difference (rad) between the orientation of a circle point and that of the tool there.
 constexpr double room_of_circle_point = 15 * deg;
 
-/// Whether the control turns the tool about one fixed axis along the arc of `move`. By default
+/// What MoveC must keep so that the control turns the tool about one fixed axis. By default
 /// (CirPathMode\PathFrame) it interpolates the orientation relative to the path; that is the same for a turn
-/// about the normal of the arc. Of the two directions of the turn it takes that of the circle point, `point`:
-/// ABB, RAPID Instructions, Functions and Data types, 3HAC16581, "MoveC" and "CirPathMode". Corrections at
-/// both ends differ a little: a turn about another axis by less than `same` changes the orientation between
-/// them by less than 1.3e-4 rad.
-bool turns_about_fixed_axis(const RapidReading& r, const RobotTarget& point, const Move& move) {
-  constexpr double same = 5e-5, half_turn = 179 * deg;  // rad
-  constexpr double first = 0.1, last = 0.9;             // of the sweep: both directions differ clearly there
-  const bool in_object = r.circle_path == "\\OBJECTFRAME";
-  if (!in_object && !r.circle_path.empty() && r.circle_path != "\\PATHFRAME") return false;
-  const Vector3 n = normal_of(*move.arc), centre = move.arc->centre_mm;
-  const Vector3 start = move.start_mm - centre;
-  const double part_of_sweep =
-      angle_about(n, start, move.arc->through->p_mm - centre) / angle_about(n, start, move.end_mm - centre);
-  if (!(part_of_sweep >= first && part_of_sweep <= last)) return false;
-  const Turn turn = written_turn_of(*move.orientation);
-  const Matrix3 R_point = rotation_of(OrientationForm::quaternion, orientation_of(point));
-  if (rotation_between(R_point, orientation_at(turn, part_of_sweep)).norm() > room_of_circle_point)
-    return false;
-  const Vector3 phi = rotation_between(turn.end, turn.start);
-  return phi.norm() < half_turn && (in_object || (phi - phi.dot(n) * n).norm() < same);
+/// about the normal of the arc. Corrections at both ends add a little turn about other axes. Of the two
+/// directions of the turn the control takes that of the circle point, `point`: ABB, RAPID Instructions,
+/// Functions and Data types, 3HAC16581, "MoveC" and "CirPathMode".
+ArcTurnLimits turn_limits(const RapidReading& r, const RobotTarget& point) {
+  constexpr double same = 1.3e-4;  // rad
+  ArcTurnLimits limits{.R_point = rotation_of(OrientationForm::quaternion, orientation_of(point)),
+                       .point_room = room_of_circle_point,
+                       .largest_turn = 179 * deg,
+                       .least_share = 0.1};  // both directions differ clearly there
+  if (r.circle_path != "\\OBJECTFRAME") limits.path_room = same;
+  return limits;
 }
 
-/// A copy of MoveC keeps the orientation of the circle point, which must fit to the part of the turn.
-bool turns_little(const Move& move) {
-  const Turn turn = turn_of(*move.orientation);
-  return rotation_between(turn.end, turn.start).norm() < room_of_circle_point;
+/// Whether the mode of the orientation along circles is one that `turn_limits` describes.
+bool is_known_circle_path(const RapidReading& r) {
+  return r.circle_path.empty() || r.circle_path == "\\PATHFRAME" || r.circle_path == "\\OBJECTFRAME";
 }
 
 /// Enters the state of the motion: work object, tool, speed.
@@ -215,10 +199,9 @@ void add_circle(RapidReading& r, const RobotLine& line, const MoveArguments& mot
       move);
   if (!go_through(motion.targets[0].target, move))
     return not_followed("the points of MoveC and its start lie on a line");
-  if (!turns_about_fixed_axis(r, motion.targets[0].target, move))
+  if (!is_known_circle_path(r) || !limit_turn(turn_limits(r, motion.targets[0].target), move))
     return not_followed("MoveC turns the tool relative to the path");
   keep_whole(r, motion, move);
-  if (!turns_little(move)) move.may_split = move.may_jump = false;
   r.robot.program.moves.push_back(std::move(move));
 }
 

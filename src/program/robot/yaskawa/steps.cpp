@@ -115,12 +115,12 @@ Matrix3 orientation_of(const RobotTarget& target) {
 
 /// How the control turns the tool along a circle is not documented. A correction turns it by at most 1
 /// degree, and the point inside of the circle as its ends.
-bool turns_the_tool(const Move& move, const RobotTarget& point, const RobotTarget& end) {
+bool turns_the_tool(Move& move, const RobotTarget& point, const RobotTarget& end) {
   constexpr double room = 1 * deg, same = 0.02 * deg;
   const Matrix3 R_start = rotation_of(OrientationForm::fixed_axes, move.orientation->start);
   const Matrix3 R_end = orientation_of(end), R_point = orientation_of(point);
   const double turn = rotation_between(R_start, R_end).norm();
-  return turn > room || rotation_between(R_point, R_end).norm() > turn + same ||
+  return !limit_turn({.largest_turn = room}, move) || rotation_between(R_point, R_end).norm() > turn + same ||
          rotation_between(R_point, R_start).norm() > turn + same;
 }
 

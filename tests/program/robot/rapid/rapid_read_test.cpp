@@ -249,8 +249,6 @@ TEST_CASE("MoveC is an arc through its point where the tool does not turn with t
   CHECK(followed("CirPathMode \\PathFrame;\n", half_way, end));
   CHECK(!followed("CirPathMode\\Wrist45;\n", half_way, end));
   CHECK(!followed("IF a=1 CirPathMode\\ObjectFrame;\n", half_way, end));
-  const Program turning = read_arc("", "MoveC " + half_way + "," + end + ",v100,z1,tool0;\n");
-  CHECK(!turning.moves[1].may_split);
   CHECK(!followed("", "<1,0,0>", "<2,0,0>"));  // on a line
 }
 
