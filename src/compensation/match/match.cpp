@@ -1,5 +1,6 @@
 #include "compensation/match/match.hpp"
 
+#include <algorithm>
 #include <utility>
 
 #include "compensation/match/match_pieces.hpp"
@@ -68,7 +69,7 @@ std::optional<Failure> match_move(const Job& job, const PlannedWays& ways, std::
   const MatchedMoves matched{original, segment, finder.find(m, segment, others)};
   if (matched.found.empty()) return not_found(original, others, found, state.last_line);
   if (auto failure = frame_failure(job, matched)) return failure;
-  if (auto failure = kind_failure(job, matched)) return failure;
+  if (auto failure = kind_failure(job, ways, matched)) return failure;
   if (auto failure = shift_failure(job, m, matched, state.shifts)) return failure;
   if (auto failure = words_failure(job, matched)) return failure;
   if (auto failure = zone_failure(job, matched, state.zone)) return failure;
@@ -111,6 +112,24 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   return std::nullopt;
 }
 
+// The correction at eighths of an arc, beside the straight line between those at its ends.
+double bend_of(const PlannedSegment& planned) {
+  constexpr int parts = 8;
+  if (planned.arc.empty()) return 0;
+  const auto shift_at = [&](double u) {
+    const auto later =
+        std::ranges::find_if(planned.arc, [&](const auto& stretch) { return stretch.end() > u; });
+    return shift_of((later != planned.arc.end() ? *later : planned.arc.back()).at(u));
+  };
+  const Vector3 first = shift_at(0), last = shift_at(1);
+  double largest = 0;
+  for (int k = 1; k < parts; ++k) {
+    const double u = static_cast<double>(k) / parts;
+    largest = std::max(largest, (shift_at(u) - (1 - u) * first - u * last).norm());
+  }
+  return largest;
+}
+
 }  // namespace
 
 PlannedWays planned_ways(const Job& job, const Plan& plan) {
@@ -124,6 +143,7 @@ PlannedWays planned_ways(const Job& job, const Plan& plan) {
     if (planned.knots.size() > 1)
       way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
     add_borders(job.path.segments[s].wanted, planned, way.inner);
+    way.bend = bend_of(planned);
   }
   return ways;
 }

@@ -15,6 +15,7 @@ namespace counterflex {
 struct PlannedWay {
   std::optional<Vector3> end;  ///< M (m); nothing where the plan does not correct the segment by itself
   std::vector<Knot> inner;     ///< before the end, in order; a step is two knots at one fraction
+  double bend = 0;  ///< of an arc: how far its correction leaves the straight line between its ends (m)
 };
 using PlannedWays = std::vector<PlannedWay>;
 PlannedWays planned_ways(const Job& job, const Plan& plan);

@@ -32,12 +32,13 @@ double in_plane(const Vector3& v, int normal) {
 // Compares the moves that command one move of the original.
 class KindComparison {
  public:
-  KindComparison(const Job& job, const MatchedMoves& matched)
+  KindComparison(const Job& job, const PlannedWays& ways, const MatchedMoves& matched)
       : matched_(matched),
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
         tolerance_mm_(job.options.tolerance / mm),
         tilt_tolerance_(job.options.tilt_tolerance),
+        bend_mm_(matched.segment && *matched.segment < ways.size() ? ways[*matched.segment].bend / mm : 0),
         most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
                        mm) {}
 
@@ -61,6 +62,7 @@ class KindComparison {
     const bool last = i + 1 == matched_.found.size();
     const bool jump = i == 0 && !last && !found.arc && found.motion == Motion::feed;
     const bool same_motion = found.motion == original_.motion && !found.cycle == !original_.cycle;
+    if (jump) compare_jump(found);
     if (jump && (!same_motion || !original_.arc)) return;  // what follows it is judged from its end on
     if (!same_motion || (found.arc && !original_.arc)) return fail_kind(found);
     if (!original_.arc) return;
@@ -168,13 +170,16 @@ class KindComparison {
            fmt::format("the {} of this arc is off by {:.4f} mm", by_radius ? "radius" : "centre", miss));
   }
 
-  // The inside of an arc that is not split is not judged by its deviation. It is shifted as its ends are.
+  // The inside of an arc that is not split is not judged by its deviation. It is shifted as its ends are, and
+  // by what the correction bends between them: the best arc is beside both by at most that.
   void compare_middle(const Move& found) {
     if (original_.may_split || !arc_has_point(found)) return;
     const Vector3 at_start = found.start_mm - original_.start_mm, at_end = found.end_mm - original_.end_mm;
     const Vector3 shift = point_at(curve_of(found), 0.5) - point_at(curve_of(original_), 0.5);
     const double off = (shift - (at_start + at_end) / 2).norm();
-    const double room = (at_end - at_start).norm() + tolerance_mm_ + roundings * rounding_mm_;
+    constexpr double bends = 2;
+    const double room =
+        (at_end - at_start).norm() + bends * bend_mm_ + tolerance_mm_ + roundings * rounding_mm_;
     if (off > room)
       fail(found,
            fmt::format("the middle of this arc is off by {:.4f} mm, between its ends {:.4f} mm are allowed",
@@ -212,6 +217,15 @@ class KindComparison {
       fail(found, fmt::format("this move goes {:.4f} mm, that of the original stays where it is", way));
   }
 
+  // Before a move that is not split only a correction is inserted, where the move begins.
+  void compare_jump(const Move& found) {
+    const bool is_split = original_.may_split || changes_height_inside(original_);
+    if (is_split || !all_known(original_.known_start)) return;
+    for (Eigen::Index axis = 0; axis < 3 && !failure_; ++axis)
+      compare_shift(found, fmt::format("{} at the start", "XYZ"[axis]),
+                    found.end_mm[axis] - original_.start_mm[axis]);
+  }
+
   // No word is shifted by more than the limit of corrections.
   void compare_shifts(const Move& found) {
     const Vector3& start = matched_.found.front().move->start_mm;
@@ -247,7 +261,7 @@ class KindComparison {
 
   const MatchedMoves& matched_;
   const Move& original_;
-  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, most_shift_mm_;
+  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, bend_mm_, most_shift_mm_;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;                    // of the arcs and chords so far
   std::optional<Failure> failure_;
@@ -255,8 +269,8 @@ class KindComparison {
 
 }  // namespace
 
-std::optional<Failure> kind_failure(const Job& job, const MatchedMoves& matched) {
-  return KindComparison(job, matched).run();
+std::optional<Failure> kind_failure(const Job& job, const PlannedWays& ways, const MatchedMoves& matched) {
+  return KindComparison(job, ways, matched).run();
 }
 
 }  // namespace counterflex

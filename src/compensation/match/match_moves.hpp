@@ -51,7 +51,7 @@ class MoveFinder {
 /// Whether matched moves go as the original, rapid, line or arc, in its plane, sense and number of turns: the
 /// failure of the first that does not. Chords of an arc are right where they follow it within the tolerance.
 /// Also the failure of moves that no piece judges and that are shifted by more than a correction may.
-std::optional<Failure> kind_failure(const Job& job, const MatchedMoves& matched);
+std::optional<Failure> kind_failure(const Job& job, const PlannedWays& ways, const MatchedMoves& matched);
 
 /// What an inserted block, or a piece of the original's block, must not hold; nothing where all is right.
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched);

@@ -107,6 +107,24 @@ TEST_CASE("the line behind a target in joint values begins at the place of the j
   }
 }
 
+TEST_CASE("an inserted point before a line that is not split is a correction of its start") {
+  Robot robot = robots()[0];
+  robot.line = "LIN {X 1850.0,Y 50.0,Z 601.0,A 0.0,B 0.0,C 0.0}\n";  // it stops at its end
+  const Shop shop(order_of("kuka", robot.text()));
+  const auto failure_with = [&](const Vector3& p_mm) {
+    Robot changed = robot;
+    changed.line =
+        fmt::format("LIN {{X {},Y {},Z {},A 0.0,B 0.0,C 0.0}}\n", p_mm.x(), p_mm.y(), p_mm.z()) + robot.line;
+    const Program program = read_program(changed.text(), "changed", order_of("kuka", "").read);
+    const auto failure = verify(shop.job(), program, true).failure;
+    return failure ? failure->what : std::string();
+  };
+  const std::string beyond =
+      "X at the start is shifted by 21.0000 mm, the limit of a correction is 20.0000 mm";
+  CHECK(failure_with(first / mm + Vector3(21, 0, 0)) == beyond);
+  CHECK(failure_with(first / mm + Vector3(19, 0, 0)) != beyond);
+}
+
 TEST_CASE("the line behind a target in joint values is corrected from its start to its end") {
   constexpr double tolerance = 5e-6;
   const Vector6 F = (Vector6() << 120, -300, -80, 2, 5, -3).finished();
