@@ -48,6 +48,8 @@ ExitStatus run_command(const Options& options, Console& console) {
       return run_check(options, console);
     case Command::identify:
       return run_identify(options, console);
+    case Command::import:
+      return run_import(options, console);
     case Command::batch:
       return run_batch(options, console);
     case Command::watch:

@@ -12,6 +12,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
+#include "counterflex/import/import.hpp"
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
@@ -27,6 +28,7 @@ namespace fs = std::filesystem;
 std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs = files_of_program(options.program, options.data_lists);
   inputs.push_back(options.machine);
+  if (!options.import.file.empty()) inputs.push_back(options.import.file);
   if (!options.verify.corrected.empty()) inputs.push_back(options.verify.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
@@ -233,6 +235,15 @@ ComparisonPaths comparison_paths(const Options& options) {
   if (!options.force_overwrite)
     refuse_foreign({marked_file(paths.json, "\"counterflex-comparison"), page_file(paths.page)});
   return paths;
+}
+
+void check_machine_output(const Options& options, const std::string& output) {
+  check_paths({output}, inputs_of(options));
+  const std::string extension = fs::path(output).extension().string();
+  if (output != "-" && extension != ".toml")
+    throw InputError(ErrorKind::usage, {output},
+                     fmt::format("a machine file is written to a .toml file, not to '{}'", extension));
+  if (!options.force_overwrite) refuse_foreign({marked_file(output, import_mark)});
 }
 
 void check_output(const Options& options, std::string_view mark) {

@@ -85,6 +85,9 @@ ComparisonPaths comparison_paths(const Options& options);
 /// `refuse_foreign`.
 void check_output(const Options& options, std::string_view mark);
 
+/// Checks the machine file that a command writes to `output`. Throws as `output_paths` and `refuse_foreign`.
+void check_machine_output(const Options& options, const std::string& output);
+
 /// The files of a run, written under temporary names. They get their names only when the run succeeds.
 class RunFiles {
  public:

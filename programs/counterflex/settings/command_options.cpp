@@ -266,6 +266,29 @@ void add_identify(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_import(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(
+      app, options, "import", Command::import, "Write a machine file from another description of the machine",
+      "  counterflex import urdf robot.urdf --base base_link --tip tool0 -o machine.toml\n"
+      "  counterflex import dh arm.csv --convention standard -o machine.toml\n"
+      "  counterflex import ur-calibration calibration.yaml -o machine.toml\n"
+      "  counterflex import linuxcnc hexapod.ini -o machine.toml");
+  add_file(command, "SOURCE", options.import.source, "What FILE is: urdf, dh, ur-calibration or linuxcnc");
+  add_file(command, "FILE", options.import.file,
+           "A URDF, a table of DH parameters (.csv), a calibration of a UR arm (.yaml), a HAL or INI file");
+  value_option(command, "--base", "LINK", "Of a URDF: the link that is the machine frame (default: the root)",
+               [&](const std::string& text) { options.import.base = text; });
+  value_option(command, "--tip", "LINK", "Of a URDF: the link that is the platform (default: the only end)",
+               [&](const std::string& text) { options.import.tip = text; });
+  value_option(command, "--convention", "standard|modified", "Of a DH table",
+               [&](const std::string& text) { options.import.convention = text; });
+  value_option(command, "-o,--output", "OUTPUT", "The machine file (default: standard output)",
+               [&](const std::string& text) { options.output = text; });
+  add_setting(command, options, "force-overwrite");
+  command.add_flag("-q,--quiet", options.quiet, "Print nothing but errors")
+      ->group(std::string(group::output));
+}
+
 void add_batch(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "batch", Command::batch,
                                   "Correct all programs of a list of jobs and write a summary",
@@ -315,6 +338,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_show_forces(app, options);
   add_check(app, options);
   add_identify(app, options);
+  add_import(app, options);
   add_batch(app, options);
   add_watch(app, options);
 }

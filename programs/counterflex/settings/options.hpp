@@ -12,7 +12,19 @@
 
 namespace counterflex::cli {
 
-enum class Command { compensate, predict, verify, compare, analyze, forces, check, identify, batch, watch };
+enum class Command {
+  compensate,
+  predict,
+  verify,
+  compare,
+  analyze,
+  forces,
+  check,
+  identify,
+  import,
+  batch,
+  watch
+};
 
 /// Sources of settings besides jobs files.
 struct SettingSources {
@@ -62,6 +74,13 @@ struct IdentifyOptionTexts {
   std::optional<std::string> fit;       ///< "zeros,geometry"
   std::optional<std::string> hold_out;  ///< "session", "region" or "20%"
   bool all = false;                     ///< keep sets that do not improve held-out rows
+};
+
+struct ImportOptions {
+  std::string source;  ///< "urdf", ...: what the file is
+  std::string file;
+  std::optional<std::string> base, tip;   ///< links of a URDF
+  std::optional<std::string> convention;  ///< of a DH table
 };
 
 struct BatchOptions {
@@ -126,6 +145,7 @@ struct Options {
   ForcesOptions forces_table;
   AnalyzeOptions analyze;
   IdentifyOptionTexts identify;
+  ImportOptions import;
   BatchOptions batch;
   WatchOptions watch;
 

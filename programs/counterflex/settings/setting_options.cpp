@@ -253,6 +253,7 @@ bool has_setting(Command command, std::string_view option) {
     case Command::identify:
       return is_among(option, {"machine", "threads", "force-overwrite"});
     case Command::compare:
+    case Command::import:
       return option == "force-overwrite";
   }
   return false;
