@@ -156,8 +156,19 @@ NumberSources number_sources(const Machine& machine) {
   return sources;
 }
 
+std::string numbers_phrase(const Machine& machine) {
+  const NumberSources sources = number_sources(machine);
+  if (sources.total() == 0) return {};
+  return fmt::format("{} in [parameters]: {} measured, {} catalogue, {} prior", sources.total(),
+                     sources.measured, sources.catalogue, sources.prior);
+}
+
 bool is_unmeasured(const Machine& machine) {
   return !machine.parameters.empty() && !number_sources(machine).compliance_measured;
+}
+
+std::string unmeasured_phrase(const Machine& machine) {
+  return is_unmeasured(machine) ? "UNMEASURED: no stiffness in the machine file is measured" : "";
 }
 
 }  // namespace counterflex

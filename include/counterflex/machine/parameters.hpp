@@ -40,6 +40,12 @@ struct NumberSources {
 };
 NumberSources number_sources(const Machine& machine);
 
+/// "23 in [parameters]: 9 measured, 12 catalogue, 2 prior"; empty for a machine without [parameters].
+std::string numbers_phrase(const Machine& machine);
+
+/// "UNMEASURED: ...", for checks and reports; empty unless `is_unmeasured`.
+std::string unmeasured_phrase(const Machine& machine);
+
 /// Whether the file states the sources of its numbers, and no compliance among them is measured.
 bool is_unmeasured(const Machine& machine);
 
