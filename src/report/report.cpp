@@ -7,6 +7,7 @@
 #include <utility>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/parameters.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "report/text/assumptions.hpp"
 #include "report/text/control.hpp"
@@ -135,6 +136,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.facts = context.facts;
   report.failure = failure;
   report.machine = context.machine.name;
+  report.unmeasured = unmeasured_phrase(context.machine);
   report.method = context.options.method;
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;

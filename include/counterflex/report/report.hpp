@@ -211,6 +211,7 @@ struct RunReport {
   FeedMoves feed_moves;
   RunFacts facts;  ///< its `warnings` stay the caller's own; all are in `warnings` below
   std::string machine;
+  std::string unmeasured{};  ///< "UNMEASURED: ..."; empty unless no stiffness of the machine is measured
   Method method = Method::direct;
   double tolerance_mm = 0;
   double path_mm = 0;                         ///< length of the feed moves

@@ -5,6 +5,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/machine/shown.hpp"
 #include "machine/describe/describe_elements.hpp"
@@ -142,6 +143,8 @@ void describe_settings(const Machine& machine, std::string& text) {
   if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
   if (machine.joint_values_as_shown)
     line("joints", "joint values of programs are the shown values; stated by the file");
+  if (!machine.parameters.empty()) line("numbers", numbers_phrase(machine));
+  if (is_unmeasured(machine)) line("stiffness", unmeasured_phrase(machine));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
   if (machine.work_is_machine_frame)

@@ -325,6 +325,7 @@ Json units_json(const ShownUnits& units) {
 
 Json assumptions_json(const RunReport& report) {
   Json json = {{"work", report.work}, {"datum", report.datum}};
+  if (!report.unmeasured.empty()) json["unmeasured"] = report.unmeasured;
   if (!report.tools.empty()) json["tools"] = report.tools_assumed;
   if (!report.gravity.empty()) json["gravity"] = report.gravity;
   json["not_modelled"] = report.not_modelled;

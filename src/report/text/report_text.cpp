@@ -31,6 +31,7 @@ std::string title(const RunReport& report, const Ink& ink) {
   std::string text = ink.bold(what_was_done(report)) + "\n";
   const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
   text += wrapped("  ", fmt::format("on {}", machine), 2);
+  if (!report.unmeasured.empty()) text += wrapped("  ", report.unmeasured, 2);
   if (report.command == Command::predict) return text;
   const std::string method =
       report.command == Command::compensate ? fmt::format("method {}, ", to_string(report.method)) : "";

@@ -29,7 +29,8 @@ std::string headline(const RunReport& report, const Ink& ink) {
   const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
   const std::string method =
       report.method == Method::direct ? "" : fmt::format(", method {}", to_string(report.method));
-  return ink.bold(what_was_done(report)) + " on " + without_controls(machine) + method + "\n";
+  return ink.bold(what_was_done(report)) + " on " + without_controls(machine) + method + "\n" +
+         (report.unmeasured.empty() ? "" : item("machine", report.unmeasured));
 }
 
 std::string causes_text(const SourcesAtWorst& at) {

@@ -9,6 +9,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/parameters.hpp"
 #include "process/version.hpp"
 
 namespace counterflex::cli {
@@ -142,6 +143,7 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
       fmt::format("VERSION {} METHOD {}", upper(version), upper(std::string(to_string(run.options.method)))),
       "PROGRAM " + short_hash(run.file.file), "MACHINE " + short_hash(run.machine.file),
       "MADE FOR " + (name.empty() ? "A MACHINE WITHOUT A NAME" : name)};
+  if (is_unmeasured(run.machine.machine)) lines.push_back("UNMEASURED MACHINE, ITS STIFFNESS IS ASSUMED");
   for (const InputFile& list : run.file.data_lists) lines.push_back("DATA LIST " + short_hash(list));
   add_work(run, lines);
   add_tools(run, lines);

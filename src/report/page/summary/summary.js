@@ -158,8 +158,8 @@
 
   /** What the numbers rest on: place and datum of the part, force, tools, weights. */
   function assumptionList({report}) {
-    const {work, datum, tools, gravity} = report.assumptions || {};
-    const list = [work, datum, forceSentence(report), tools, gravity].filter(Boolean);
+    const {work, datum, tools, gravity, unmeasured} = report.assumptions || {};
+    const list = [unmeasured, work, datum, forceSentence(report), tools, gravity].filter(Boolean);
     return el('div', {class: 'assumptions'}, el('h3', null, 'Assumed'), el('ul', null, list.map((text) => el('li', null, words.unitsOf(text)))));
   }
 
