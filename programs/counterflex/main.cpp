@@ -46,6 +46,8 @@ ExitStatus run_command(const Options& options, Console& console) {
       return run_forces(options, console);
     case Command::check:
       return run_check(options, console);
+    case Command::create:
+      return run_new(options, console);
     case Command::identify:
       return run_identify(options, console);
     case Command::import:

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <optional>
 
 #include "commands/commands.hpp"
@@ -16,6 +17,21 @@ namespace {
 
 bool is_machine(const std::string& path) {
   return path.ends_with(".toml");
+}
+
+/// --draw and --parameters are for machine files.
+void refuse_machine_options(const Options& options) {
+  const std::vector<std::string>& files = options.check.files;
+  const auto machines = std::count_if(files.begin(), files.end(), is_machine);
+  if (options.check.parameters && static_cast<std::size_t>(machines) != files.size())
+    throw InputError(ErrorKind::usage, {}, "--parameters is for machine files (.toml) only");
+  if (!options.check.draw) return;
+  if (machines != 1)
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--draw draws one machine file (.toml), and {} are given", machines));
+  if (options.check.parameters)
+    throw InputError(ErrorKind::usage, {}, "--draw and --parameters exclude each other");
+  check_drawing_output(options);
 }
 
 Checked check_file(const std::string& path, const Options& options, const MachineInput* machine,
@@ -47,6 +63,7 @@ std::string row(std::string_view label, std::string_view text) {
 }
 
 std::optional<ErrorKind> run_check(const Options& options, Console& console) {
+  refuse_machine_options(options);
   std::optional<MachineInput> machine;
   if (!options.machine.empty()) {
     machine = read_machine_input(options);

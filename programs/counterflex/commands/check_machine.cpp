@@ -1,14 +1,20 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "commands/check.hpp"
+#include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "counterflex/report/machine_drawing.hpp"
 #include "counterflex/statics/chain.hpp"
+#include "process/read_input.hpp"
+#include "run/outputs.hpp"
 #include "run/sanity.hpp"
 
 namespace counterflex::cli {
@@ -213,12 +219,83 @@ nlohmann::ordered_json gravity_json(const Machine& machine) {
           {"mass_kg_by_chain", masses}};
 }
 
+nlohmann::ordered_json numbers_json(const Machine& machine) {
+  const NumberSources sources = number_sources(machine);
+  return {{"measured", sources.measured},
+          {"catalogue", sources.catalogue},
+          {"prior", sources.prior},
+          {"unmeasured", is_unmeasured(machine)}};
+}
+
+/// What the file states about a parameter, if anything.
+const ParameterStatement* statement_of(const Machine& machine, const Parameter& parameter) {
+  const auto& all = machine.parameters;
+  const auto found =
+      std::find_if(all.begin(), all.end(), [&](const auto& stated) { return stated.name == parameter.name; });
+  return found == all.end() ? nullptr : &*found;
+}
+
+std::string_view name_of(NumberSource source) {
+  return source == NumberSource::measured    ? "measured"
+         : source == NumberSource::catalogue ? "catalogue"
+                                             : "prior";
+}
+
+std::string number_text(double si, const Parameter& parameter) {
+  return fmt::format("{:.6g}", si == 0 ? 0 : si / parameter.unit);
+}
+
+/// One line for each parameter.
+std::string parameters_text(const Machine& machine) {
+  const std::vector<Parameter> all = parameters(machine);
+  std::size_t width = std::string_view("parameter").size();
+  for (const Parameter& parameter : all) width = std::max(width, parameter.name.size());
+  std::string text = fmt::format("{:<{}}  {:>12}  {:>12}  {:<9}  {}\n", "parameter", width, "value", "sigma",
+                                 "source", "note");
+  for (const Parameter& parameter : all) {
+    const ParameterStatement* stated = statement_of(machine, parameter);
+    std::string line = fmt::format(
+        "{:<{}}  {:>12}  {:>12}  {:<9}  {}", parameter.name, width, number_text(parameter.value, parameter),
+        stated != nullptr && stated->sigma ? number_text(*stated->sigma, parameter) : "-",
+        stated != nullptr ? name_of(stated->source) : "-", stated != nullptr ? stated->note : "");
+    line.resize(line.find_last_not_of(' ') + 1);
+    text += line + "\n";
+  }
+  return text;
+}
+
+nlohmann::ordered_json parameters_json(const Machine& machine) {
+  auto list = nlohmann::ordered_json::array();
+  for (const Parameter& parameter : parameters(machine)) {
+    nlohmann::ordered_json row{{"name", parameter.name}, {"value", parameter.value / parameter.unit}};
+    if (const ParameterStatement* stated = statement_of(machine, parameter)) {
+      row["sigma"] = stated->sigma ? nlohmann::ordered_json(*stated->sigma / parameter.unit)
+                                   : nlohmann::ordered_json(nullptr);
+      row["source"] = name_of(stated->source);
+      row["note"] = stated->note;
+    }
+    list.push_back(std::move(row));
+  }
+  return list;
+}
+
+void draw(const Machine& machine, const Model& model, const std::string& path) {
+  FileWriter file(path);
+  file.write(machine_drawing(machine, model));
+  publish_together({&file});
+}
+
 }  // namespace
 
-Checked check_machine(const std::string& path, const Options&, Console& console) {
+Checked check_machine(const std::string& path, const Options& options, Console& console) {
   const Machine machine = read_machine(read_input(path, ErrorKind::machine_or_force), path);
+  if (options.check.parameters)
+    return {row("file", path) + "\n" + parameters_text(machine),
+            "",
+            {{"file", path}, {"kind", "machine"}, {"parameters", parameters_json(machine)}}};
   const Model model = prepare(machine);
   refuse_home(model, machine);
+  if (options.check.draw) draw(machine, model, *options.check.draw);
   const HomeFacts home = look_at_home(model);
   const auto notes = notes_of(machine, model, home);
 
@@ -239,6 +316,7 @@ Checked check_machine(const std::string& path, const Options&, Console& console)
   if (!machine.gravity.g.isZero(0) || total_mass(machine) > 0)
     checked.json["gravity"] = gravity_json(machine);
   if (!machine.tools.empty()) checked.json["tools"] = tools_json(machine);
+  if (!machine.parameters.empty()) checked.json["numbers"] = numbers_json(machine);
   checked.json["notes"] = notes;
   add_sanity(machine_sanity(machine, model), machine, checked, console);
   return checked;

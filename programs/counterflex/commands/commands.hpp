@@ -20,6 +20,7 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console);
 /// Writes a machine file from another description of the machine.
 std::optional<ErrorKind> run_import(const Options& options, Console& console);
 std::optional<ErrorKind> run_check(const Options& options, Console& console);
+std::optional<ErrorKind> run_new(const Options& options, Console& console);
 
 /// The exit status is that of a signal if one has stopped the batch.
 ExitStatus run_batch(const Options& options, Console& console);

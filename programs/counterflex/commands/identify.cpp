@@ -75,14 +75,16 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   const std::string output = options.output.value_or(""),
                     report = options.report ? *options.report + ".json" : "",
                     page = options.report ? *options.report + ".html" : "";
-  if (!options.force_overwrite)
-    refuse_foreign(
-        {marked_file(output, mark), marked_file(report, report_mark), marked_file(page, page_mark)});
-  const MachineInput input = read_machine_input(options);
-  for (const std::string& data : options.identify.data)
-    for (const std::string& file : {output, report, page})
-      if (!file.empty() && canonical_name(file) == canonical_name(data))
+  std::vector<std::string> inputs = options.identify.data;
+  inputs.push_back(options.machine);
+  check_machine_output(output, inputs, options.force_overwrite);
+  for (const std::string& input : inputs)
+    for (const std::string& file : {report, page})
+      if (!file.empty() && canonical_name(file) == canonical_name(input))
         throw InputError(ErrorKind::usage, {}, fmt::format("{} is an input and an output", file));
+  if (!options.force_overwrite)
+    refuse_foreign({marked_file(report, report_mark), marked_file(page, page_mark)});
+  const MachineInput input = read_machine_input(options);
   Measurements measurements;
   for (const std::string& file : options.identify.data) load_measurements(file, input.machine, measurements);
   console.progress("identifying");

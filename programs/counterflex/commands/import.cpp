@@ -81,7 +81,7 @@ int count_of(std::string_view text, std::string_view word) {
 std::optional<ErrorKind> run_import(const Options& options, Console& console) {
   refuse_foreign_options(options.import);
   const std::string output = options.output.value_or("-");
-  check_machine_output(options, output);
+  check_machine_output(output, {options.import.file}, options.force_overwrite);
   const std::string text = imported(options.import);
   write_file(output, text);
   console.note(

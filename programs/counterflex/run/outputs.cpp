@@ -12,7 +12,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
-#include "counterflex/import/import.hpp"
+#include "counterflex/report/machine_drawing.hpp"
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
@@ -28,7 +28,6 @@ namespace fs = std::filesystem;
 std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs = files_of_program(options.program, options.data_lists);
   inputs.push_back(options.machine);
-  if (!options.import.file.empty()) inputs.push_back(options.import.file);
   if (!options.verify.corrected.empty()) inputs.push_back(options.verify.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
@@ -237,15 +236,6 @@ ComparisonPaths comparison_paths(const Options& options) {
   return paths;
 }
 
-void check_machine_output(const Options& options, const std::string& output) {
-  check_paths({output}, inputs_of(options));
-  const std::string extension = fs::path(output).extension().string();
-  if (output != "-" && extension != ".toml")
-    throw InputError(ErrorKind::usage, {output},
-                     fmt::format("a machine file is written to a .toml file, not to '{}'", extension));
-  if (!options.force_overwrite) refuse_foreign({marked_file(output, import_mark)});
-}
-
 void check_output(const Options& options, std::string_view mark) {
   if (!options.output) return;
   if (*options.output == "-" && options.json)
@@ -258,6 +248,26 @@ void check_output(const Options& options, std::string_view mark) {
     throw InputError(ErrorKind::usage, {*options.output},
                      fmt::format("a table is written to a .csv file, not to '{}'", extension));
   if (!options.force_overwrite) refuse_foreign({marked_file(*options.output, mark)});
+}
+
+void check_machine_output(const std::string& output, const std::vector<std::string>& inputs, bool overwrite) {
+  if (output.empty() || output == "-") return;
+  check_paths({output}, inputs);
+  if (fs::path(output).extension() != ".toml")
+    throw InputError(ErrorKind::usage, {output}, "a machine file has a name that ends in .toml");
+  std::error_code error;
+  if (overwrite || !fs::is_regular_file(output, error) || fs::file_size(output, error) == 0) return;
+  throw InputError(ErrorKind::usage, {output},
+                   "the file exists; give another name, or --force-overwrite to replace it");
+}
+
+void check_drawing_output(const Options& options) {
+  const std::string& path = *options.check.draw;
+  if (fs::path(path).extension() != ".svg")
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--draw writes a file that ends in .svg, not '{}'", path));
+  check_paths({path}, options.check.files);
+  if (!options.force_overwrite) refuse_foreign({marked_file(path, drawing_mark)});
 }
 
 RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool hashed)

@@ -85,8 +85,12 @@ ComparisonPaths comparison_paths(const Options& options);
 /// `refuse_foreign`.
 void check_output(const Options& options, std::string_view mark);
 
-/// Checks the machine file that a command writes to `output`. Throws as `output_paths` and `refuse_foreign`.
-void check_machine_output(const Options& options, const std::string& output);
+/// Checks the machine file that a command makes from `inputs`. People edit machine files: an existing one is
+/// replaced only with --force-overwrite. Throws as `output_paths`. Standard output, "-" or empty, is allowed.
+void check_machine_output(const std::string& output, const std::vector<std::string>& inputs, bool overwrite);
+
+/// Checks --draw of `check`. Throws as `output_paths` and `refuse_foreign`.
+void check_drawing_output(const Options& options);
 
 /// The files of a run, written under temporary names. They get their names only when the run succeeds.
 class RunFiles {

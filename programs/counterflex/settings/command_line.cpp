@@ -166,7 +166,8 @@ bool reads_sources(const Options& options) {
   if (options.print_config || options.sources.config) return true;
   if (options.command == Command::check) return !placing_program(options).ends_with(".toml");
   return options.command != Command::compare && options.command != Command::batch &&
-         options.command != Command::import && !options.forces_table.materials;
+         options.command != Command::import && options.command != Command::create &&
+         !options.forces_table.materials;
 }
 
 std::vector<SettingRemark> remarks_on_environment() {

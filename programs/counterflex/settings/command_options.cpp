@@ -3,6 +3,7 @@
 #include <CLI/CLI.hpp>
 #include <functional>
 
+#include "counterflex/machine/create.hpp"
 #include "settings/help.hpp"
 #include "settings/setting_options.hpp"
 #include "settings/values.hpp"
@@ -227,13 +228,60 @@ void add_check(CLI::App& app, Options& options) {
                   "Read machine files (.toml) and programs, show what was understood, find mistakes",
                   "  counterflex check O1001.NC\n"
                   "  counterflex check machine.toml\n"
-                  "  counterflex check O1001.NC -m machine.toml");
+                  "  counterflex check O1001.NC -m machine.toml\n"
+                  "  counterflex check machine.toml --draw machine.svg");
   command.add_option("FILE", options.check.files, "Machine files and programs")->required()->type_name("");
+  command.add_flag("--parameters", options.check.parameters,
+                   "List the numbers of machine files that measurements can identify: value, sigma, source");
+  value_option(command, "--draw", "FILE.svg",
+               "Draw the machine of the only machine file, at home, in three views",
+               [&](const std::string& file) { options.check.draw = file; });
+  add_setting(command, options, "force-overwrite");
   add_setting(command, options, "machine",
               "The machine on which the programs run: is every point in its travel?");
   add_reading(command, options);
   add_config(command, options);
   add_output(command, options);
+}
+
+void add_new(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(
+      app, options, "new", Command::create, "Write a machine file from what a shop knows of a machine",
+      "  counterflex new mill3 --travel X=762,Y=406,Z=508 --tip-stiffness-N-per-um 28,22,45 -o mill.toml\n"
+      "  counterflex new robot6r --robot kuka-kr270-r2700-ultra -o robot.toml\n"
+      "  counterflex new --robots");
+  NewOptions& facts = options.create;
+  std::string kinds;
+  for (const KindOfMachine& kind : kinds_of_machine)
+    kinds += (kinds.empty() ? "" : ", ") + std::string(kind.name);
+  command.add_option("KIND", facts.kind, kinds)->type_name("");
+  const auto text = [&](const std::string& name, const std::string& type, const std::string& help,
+                        std::optional<std::string>& value) {
+    value_option(command, name, type, help, [&value](const std::string& given) { value = given; });
+  };
+  value_option(command, "--name", "NAME", "The name of the machine",
+               [&facts](const std::string& name) { facts.name = name; });
+  text("--travel", "X=762,Y=406,Z=508",
+       "Travel of axes in mm or degrees, or X=-762:0; L is a leg or a carriage, from home", facts.travel);
+  text("--squareness-um-per-m", "XY=-18,YZ=12,ZX=-25",
+       "Squareness of a mill: positive if the angle between the axes is above 90 degrees", facts.squareness);
+  text("--tip-stiffness-N-per-um", "KX,KY,KZ", "Stiffness of a mill at the tool tip along x, y, z",
+       facts.tip_stiffness);
+  text("--pivot-mm", "X,Y,Z", "Where the rotary axes of a table cross, in machine coordinates", facts.pivot);
+  text("--robot", "NAME", "The robot of robot6r, of the list of --robots", facts.robot);
+  command.add_flag("--robots", facts.robots,
+                   "List the robots that are known, with the sources of their data");
+  text("--nodes", "FILE", "The joints of a hexapod's legs (.csv): base in M, platform in P", facts.nodes);
+  text("--home-mm", "X,Y,Z", "Place of a hexapod's platform in M at home", facts.home);
+  text("--leg-stiffness-N-per-um", "K",
+       "Stiffness of a leg of a hexapod, or of a drive of a delta or orthoglide", facts.leg_stiffness);
+  text("--arm-mm", "LENGTH", "Length of the bars of a delta or orthoglide", facts.arm);
+  text("--radius-mm", "LENGTH", "Horizontal length of the bars of a delta with its platform in the centre",
+       facts.radius);
+  value_option(command, "-o,--output", "OUTPUT", "The machine file (default: standard output)",
+               [&](const std::string& output) { options.output = output; });
+  add_setting(command, options, "force-overwrite");
+  command.add_flag("-q,--quiet", options.quiet, "Print only errors")->group(std::string(group::output));
 }
 
 void add_identify(CLI::App& app, Options& options) {
@@ -337,6 +385,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_analyze(app, options);
   add_show_forces(app, options);
   add_check(app, options);
+  add_new(app, options);
   add_identify(app, options);
   add_import(app, options);
   add_batch(app, options);

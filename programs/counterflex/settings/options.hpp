@@ -20,8 +20,9 @@ enum class Command {
   analyze,
   forces,
   check,
-  identify,
+  create,
   import,
+  identify,
   batch,
   watch
 };
@@ -42,6 +43,17 @@ struct SettingRemark {
 /// Of `check`.
 struct CheckOptions {
   std::vector<std::string> files;
+  bool parameters = false;          ///< list the parameters of a machine file
+  std::optional<std::string> draw;  ///< an SVG file
+};
+
+/// Of `new`. Texts of the command line.
+struct NewOptions {
+  std::string kind;
+  bool robots = false;  ///< list the robots that are known
+  std::string name;
+  std::optional<std::string> travel, squareness, tip_stiffness, pivot, robot, nodes, home, leg_stiffness, arm,
+      radius;
 };
 
 struct VerifyOptions {
@@ -140,6 +152,7 @@ struct Options {
   bool force_overwrite = false;       ///< replace files that counterflex did not write
 
   CheckOptions check;
+  NewOptions create;
   VerifyOptions verify;
   CompareOptions compare;
   ForcesOptions forces_table;

@@ -247,12 +247,13 @@ bool has_setting(Command command, std::string_view option) {
       return is_of_reading(option) ||
              is_among(option, {"forces", "force", "load-scale", "air-above", "force-overwrite"});
     case Command::check:
-      return is_of_reading(option);
+      return is_of_reading(option) || option == "force-overwrite";
     case Command::batch:
       return is_among(option, {"threads", "force-overwrite"});
     case Command::identify:
       return is_among(option, {"machine", "threads", "force-overwrite"});
     case Command::compare:
+    case Command::create:
     case Command::import:
       return option == "force-overwrite";
   }
