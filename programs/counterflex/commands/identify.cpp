@@ -104,7 +104,7 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
     page_file->write(identification_page(found, input.machine.name, names_of(options.identify.data)));
   }
   publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
-  write_result(options.json ? to_json(found) : to_text(found));
+  if (output != "-") write_result(options.json ? to_json(found) : to_text(found));
   return {};
 }
 
