@@ -20,7 +20,8 @@ constexpr double shortest_travel = 5 * mm;
 constexpr double narrowest_turn = 7 * deg;  // 2 pi typed into a key in degrees is 6.28
 constexpr double shortest_tool = 10 * mm;   // from the gauge line of the spindle to the tip
 constexpr double shortest_reach = 10 * mm;  // the largest length of the whole file
-constexpr double largest_error_angle = 10 * deg, largest_error = 50 * mm;  // of assembly
+constexpr double largest_error_angle = 10 * deg, largest_error = 50 * mm;      // of assembly
+constexpr double largest_axis_error = 2 * mm, largest_axis_angle = 0.3 * deg;  // of tables
 constexpr double thinnest_tool = 0.05 * mm, thickest_tool = 500 * mm;
 constexpr double same_angle_deg = 2e-3;  // 3.14 is as near to pi as this
 constexpr double weakest_force_N = 1, strongest_force_N = 1e5;
@@ -87,6 +88,17 @@ struct Seen {
   }
   void operator()(const Actuator& e) {
     limits(e.min, e.max, e.joint.kind, fmt::format("an actuator of {}", where));
+    if (!e.errors) return;
+    for (const Vector6& error : e.errors->errors) {
+      const double length = error.head<3>().cwiseAbs().maxCoeff(),
+                   angle = error.tail<3>().cwiseAbs().maxCoeff();
+      if (length > largest_axis_error || angle > largest_axis_angle)
+        add(fmt::format(
+            "error table \"{}\" has an error of {}; errors of an axis have up to some 0.1 mm and 100 "
+            "arcsec: is it in another unit?",
+            e.errors->name,
+            length > largest_axis_error ? number(length / mm) + " mm" : number(angle / deg) + " deg"));
+    }
   }
   void operator()(const Passive&) {}
   void operator()(const Spring& e) {

@@ -89,6 +89,15 @@ struct ShownValue {
   std::vector<Coupling> coupled{};
 };
 
+/// Errors of the motion of one axis as functions of its shown position, as ISO 230-1 defines them: what the
+/// frame behind the actuator is off by, actual minus commanded. Axes of the frame before the actuator; the
+/// rotation is about the origin of the frame behind it.
+struct ErrorTable {
+  std::string name;
+  std::vector<double> positions{};  ///< shown values, increasing, two or more (m or rad)
+  std::vector<Vector6> errors{};    ///< there: translation (m), rotation vector (rad)
+};
+
 /// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
 /// group's branches in order, at the place of the group). An actuator with a `program_axis` has no number:
 /// the program gives its value, which is constant along a program, and it is a fixed transform at `home`.
@@ -99,6 +108,7 @@ struct Actuator {
   double home = 0;       ///< where inverse kinematics starts; of the joint, not the shown value
   int program_axis = 0;  ///< 1 to 6: the external axis E1 to E6 of the program; 0: none
   ShownValue shown{};
+  std::optional<ErrorTable> errors{};
 };
 
 /// A joint that moves freely, or against `stiffness` (N/m or N m/rad) with energy 1/2 k (q - rest)^2.
@@ -246,7 +256,7 @@ struct Machine {
   /// Reference point in the frame where the chains end: not zero for a machine with a tool that bends (m).
   Vector3 p_EP = Vector3::Zero();
   std::vector<Chain> chains;
-  std::vector<LoadLimits> load_limits;  ///< by chain; empty: the file gives none
+  std::vector<LoadLimits> load_limits;         ///< by chain; empty: the file gives none
   std::vector<ParameterStatement> parameters;  ///< in the order of the file
 };
 
@@ -256,7 +266,7 @@ bool controls(const Machine& machine, Component component);
 /// Whether it lists all six.
 bool controls_pose(const Machine& machine);
 
-/// The machine without its assembly errors.
+/// The machine without its assembly errors and error tables.
 Machine perfect(const Machine& machine);
 
 /// kg, masses in branches of groups included.

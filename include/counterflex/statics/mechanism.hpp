@@ -3,12 +3,14 @@
 /// a series of parts with numbered columns. One recursion serves chains and branches: a series runs from its
 /// start frame (M for chains, the group's for branches) to its end frame (P for chains).
 #include <Eigen/Core>
+#include <limits>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/machine/shown.hpp"
+#include "counterflex/statics/motion_errors.hpp"
 
 namespace counterflex {
 
@@ -24,6 +26,7 @@ struct Part {
   double rest = 0;                  ///< passive: value without force
   bool rest_at_home = false;
   double home = 0;              ///< actuator, passive: start of inverse kinematics
+  MotionErrors errors{};        ///< actuator: of its motion, a fraction of which can act
   double offset = 0;            ///< actuator: added to the commanded value, in the stage's part of gravity
   double mass = 0;              ///< mass: kg
   Matrix6 K = Matrix6::Zero();  ///< spring
@@ -49,9 +52,15 @@ struct Series {
   /// Numbers of all actuators in it, those of its groups' branches included, ascending.
   std::vector<int> actuators;
   std::vector<bool> angular;  ///< by column: rad (else m)
+  std::vector<bool> screws;   ///< by column: of an actuator with errors of motion, which slides and turns
   int masses = 0;             ///< point masses in it, those of branches not counted
   double mass = 0;            ///< kg, those of branches included
   bool leans = false;         ///< a branch with masses whose start frame turns: where down is, changes for it
+
+  /// Whether a column turns its end.
+  bool turns(int c) const {
+    return angular[static_cast<std::size_t>(c)] || screws[static_cast<std::size_t>(c)];
+  }
 };
 
 /// In values that the control shows, see `Mechanism::shown`.
@@ -73,6 +82,9 @@ struct Mechanism {
   Vector3 gravity = Vector3::Zero();  ///< m/s2, axes of M; zero where no weights act: then no part is a mass
   /// l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m.
   double length = 0.1;
+  /// The least distances of positions in tables of errors of motion (m, rad).
+  double error_spacing = std::numeric_limits<double>::infinity();
+  double error_spacing_angle = std::numeric_limits<double>::infinity();
   double stiffest = 0;  ///< k_max, N/m (rotational stiffness divided by l^2)
 };
 

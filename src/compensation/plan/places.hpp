@@ -10,13 +10,18 @@ namespace counterflex {
 /// Parts of a stretch without places, at whose ends it is looked at where it may curve.
 inline constexpr int eighths = 8;
 
+/// Steps along a segment in which no axis passes more than about one position of a table of errors of motion:
+/// as if axes went as far as the tip goes, and turned as if it were at the machine's length from them. 1
+/// without tables.
+int steps_of_tables(const Job& job, const Segment& segment);
+
 /// Equal steps along a feed move; a rapid is one.
-int steps_along(const Segment& segment);
+int steps_along(const Job& job, const Segment& segment);
 
 /// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
 /// feed move has places at the corners of the force, and in equal steps of at most 5 mm (a 64th of a longer
-/// move) and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places or more on each of
-/// them.
+/// move), of at most one position of the tables of errors of motion and, around an arc, of at most 22.5
+/// degrees: an arc of many turns has 16 places or more on each of them.
 void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
 
 /// A part of a segment between two fractions, and the forces at its ends, between which it may change evenly.

@@ -33,12 +33,15 @@ struct Requests {
   std::vector<Interval> intervals;
 };
 
-// Where sampling begins again: at corners of the force, and often enough around an arc.
+// Where sampling begins again: at corners of the force, and often enough around an arc and across the
+// positions of tables.
 void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& limits) {
   job.forces.breaks(index, cursor, limits);
-  const auto& arc = job.path.segments[index].wanted.arc;
-  if (!arc) return;
-  const int parts = static_cast<int>(std::ceil(arc->sweep / sampled_angle));
+  const Segment& segment = job.path.segments[index];
+  const auto& arc = segment.wanted.arc;
+  const int waves = arc ? static_cast<int>(std::ceil(arc->sweep / sampled_angle)) : 1;
+  const int parts = std::max(waves, steps_of_tables(job, segment));
+  if (parts == 1) return;
   for (int k = 1; k < parts; ++k) limits.push_back(static_cast<double>(k) / parts);
   std::sort(limits.begin(), limits.end());
   limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
@@ -66,7 +69,8 @@ void ask_group(Requests& requests, PlanTask& task, bool cutting) {
 // The inside of a cut, between its limits, and its end.
 void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector6& F1) {
   Corrections& corrections = requests.corrections;
-  const bool may_wave = job.path.segments[task.segment].wanted.arc.has_value();
+  const Segment& segment = job.path.segments[task.segment];
+  const bool may_wave = segment.wanted.arc.has_value() || steps_of_tables(job, segment) > 1;
   double u0 = 0;
   Answer a = task.start;
   for (const double u : task.limits) {

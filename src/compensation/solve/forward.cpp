@@ -122,7 +122,7 @@ std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pi
     }
     const Piece& piece = pieces[i];
     const bool inside = questions.inside && !piece.end_only && piece.segment != no_segment;
-    places += 1 + (inside ? (piece.u1 - piece.u0) * steps_along(job.path.segments[piece.segment]) : 0.0);
+    places += 1 + (inside ? (piece.u1 - piece.u0) * steps_along(job, job.path.segments[piece.segment]) : 0.0);
   }
   borders.push_back(pieces.size());
   return borders;

@@ -194,9 +194,11 @@ void describe_actuators(const Machine& machine, std::string& text) {
   for_each<Actuator>(machine, [&](const Chain& chain, const Actuator& a) {
     const std::string name =
         a.program_axis > 0 ? fmt::format("E{}", a.program_axis) : fmt::format("{}", ++number);
-    const std::string shown = phrase_shown(a);
-    text += fmt::format("  {:>2}  {:<7} {:<24} {}{}{}\n", name, chain.name, phrase(a.joint),
-                        phrase_range(a.joint, a.min, a.max), shown.empty() ? "" : ", ", shown);
+    text += fmt::format("  {:>2}  {:<7} {:<24} {}", name, chain.name, phrase(a.joint),
+                        phrase_range(a.joint, a.min, a.max));
+    for (const std::string& more : {phrase_shown(a), phrase_errors(a)})
+      if (!more.empty()) text += ", " + more;
+    text += "\n";
   });
 }
 

@@ -86,6 +86,13 @@ std::string phrase_shown(const Actuator& actuator) {
   return text;
 }
 
+std::string phrase_errors(const Actuator& actuator) {
+  const auto& table = actuator.errors;
+  if (!table) return "";
+  return fmt::format("errors of table {} ({})", table->name,
+                     phrase_range(actuator.joint, table->positions.front(), table->positions.back()));
+}
+
 std::string phrase_stiffness(const Joint& joint, double stiffness) {
   return fmt::format("{:.6g} {}", stiffness, joint.kind == JointKind::prismatic ? "N/m" : "N m/rad");
 }

@@ -52,6 +52,17 @@ void note_passives(const Machine& machine, Notes& notes) {
                                 counted(limited, "passive joint", "passive joints")));
 }
 
+/// Notes travel beyond the positions of an error table.
+void note_error_table(const std::string& who, const Actuator& a, Notes& notes) {
+  if (!a.errors) return;
+  const double first = a.errors->positions.front(), last = a.errors->positions.back();
+  if (a.min < first || a.max > last)
+    notes.push_back(fmt::format(
+        "{} has a travel of {}, but error table \"{}\" covers {}: beyond it the errors "
+        "are those of its ends",
+        who, phrase_range(a.joint, a.min, a.max), a.errors->name, phrase_range(a.joint, first, last)));
+}
+
 void note_actuators(const Machine& machine, Notes& notes) {
   int number = 0;
   const Eigen::VectorXd homes = shown_homes(machine);
@@ -64,6 +75,7 @@ void note_actuators(const Machine& machine, Notes& notes) {
       notes.push_back(
           fmt::format("{} has {}: leaving its travel is not detected", who,
                       std::isfinite(a.min) || std::isfinite(a.max) ? "one limit only" : "no limits"));
+    note_error_table(who, a, notes);
     if (home < a.min || home > a.max)
       notes.push_back(fmt::format("{} starts at {}, outside its travel {}", who, phrase_value(a.joint, home),
                                   phrase_range(a.joint, a.min, a.max)));
@@ -133,6 +145,7 @@ bool has_errors(const Machine& machine) {
   bool any = false;
   for_each<AssemblyError>(
       machine, [&](const Chain&, const AssemblyError& error) { any = any || !is_identity(error.X); });
+  for_each<Actuator>(machine, [&](const Chain&, const Actuator& a) { any = any || a.errors; });
   return any;
 }
 

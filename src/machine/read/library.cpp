@@ -49,6 +49,10 @@ Library read_library(const toml::table& document, const Source& source) {
                       [&](std::string name, const toml::key* key, const toml::node& node) {
                         library.springs[name] = {read_spring(node, name, source), key};
                       });
+  for_each_definition(document, "error_tables", source,
+                      [&](std::string name, const toml::key* key, const toml::node& node) {
+                        library.error_tables[name] = {read_error_table(node, name, source), key};
+                      });
   library.branches = read_element_lists(document, "branches", "branch", source);
   library.templates = read_element_lists(document, "templates", "template", source);
   return library;
@@ -58,6 +62,7 @@ void check_all_used(const Library& library, const Source& source) {
   check_used(library.templates, "template", source);
   check_used(library.branches, "branch", source);
   check_used(library.springs, "spring", source);
+  check_used(library.error_tables, "error table", source);
 }
 
 }  // namespace counterflex::toml_file

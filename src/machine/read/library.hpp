@@ -1,15 +1,17 @@
 #pragma once
 /// Definitions of a machine file that its chains share.
 #include "counterflex/machine/machine.hpp"
+#include "machine/read/read_error_table.hpp"
 #include "machine/read/read_shown.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex::toml_file {
 
-/// Springs are read at once. Branches and templates are kept as nodes, because each chain fills in its own
-/// numbers.
+/// Springs and error tables are read at once. Branches and templates are kept as nodes, because each chain
+/// fills in its own numbers.
 struct Library {
   DefinitionsByName<Spring> springs;
+  DefinitionsByName<KindedTable> error_tables;
   DefinitionsByName<const toml::node*> branches;
   DefinitionsByName<const toml::node*> templates;
   ActuatorsBefore actuators;    ///< of all chains so far
@@ -17,7 +19,7 @@ struct Library {
   std::size_t coordinates = 0;  ///< of all chains so far, see `read_elements`
 };
 
-/// Reads the tables `springs`, `branches` and `templates`.
+/// Reads the tables `springs`, `error_tables`, `branches` and `templates`.
 Library read_library(const toml::table& document, const Source& source);
 
 /// Throws at the first unused definition.

@@ -68,6 +68,17 @@ Element read_error(const toml::table& table, Expansion& expansion) {
   return AssemblyError{name, given->second.value};
 }
 
+Element read_actuator_element(const toml::table& table, Expansion& expansion) {
+  const Source& source = expansion.source;
+  Actuator actuator = read_actuator(table, reading_of(expansion), expansion.library.actuators);
+  if (const toml::node* node = table.get("error_table")) {
+    const std::string name = as_text(*node, "error_table", source);
+    actuator.errors = checked_for(
+        actuator, use(expansion.library.error_tables, name, "error table", *node, source), *node, source);
+  }
+  return actuator;
+}
+
 Element read_spring_element(const toml::table& table, Expansion& expansion) {
   const toml::node& node = *table.get("spring");
   check_keys(table, {"spring", "mass"}, "a spring element", expansion.source);
@@ -128,7 +139,7 @@ Element read_element(const toml::table& table, Expansion& expansion) {
   if (kind.empty()) fail_without_kind(table, source);
   if (kind == "rigid") return read_rigid(table, expansion);
   if (kind == "error") return read_error(table, expansion);
-  if (kind == "actuator") return read_actuator(table, reading_of(expansion), expansion.library.actuators);
+  if (kind == "actuator") return read_actuator_element(table, expansion);
   if (kind == "passive") return read_passive(table, reading_of(expansion));
   if (kind == "spring") return read_spring_element(table, expansion);
   if (kind == "compliance") return read_compliance(table, reading_of(expansion));

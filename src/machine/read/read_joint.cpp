@@ -97,6 +97,12 @@ void read_travel(WithTravel& joint, const toml::table& table, const JointKeys& k
                                        joint.max / keys.unit, keys.min, joint.min / keys.unit, origin));
 }
 
+void refuse_error_table(const toml::table& table, const Source& source) {
+  if (table.contains("error_table"))
+    source.fail(key_of(table, "error_table"),
+                "error_table is not allowed with program_axis: the axis does not move");
+}
+
 void read_preload(Passive& passive, const toml::table& table, const JointKeys& keys, std::string_view owner,
                   const Reading& reading) {
   const std::string_view form = one_of(table, {"preload", keys.preload}, owner, reading.source);
@@ -117,7 +123,8 @@ void read_preload(Passive& passive, const toml::table& table, const JointKeys& k
 Actuator read_actuator(const toml::table& table, const Reading& reading, ActuatorsBefore& before) {
   const JointKeys& keys = read_kind(table, "actuator", reading.source);
   const std::string owner = fmt::format("a {} actuator", keys.name);
-  std::vector<std::string_view> allowed = {"actuator", "axis", keys.min, keys.max, keys.home, "mass"};
+  std::vector<std::string_view> allowed = {"actuator", "axis",        keys.min, keys.max,
+                                           keys.home,  "error_table", "mass"};
   for (const std::string_view key : shown_keys(keys.kind)) allowed.push_back(key);
   check_keys(table, allowed, owner, reading.source);
   Actuator actuator;
@@ -125,6 +132,7 @@ Actuator read_actuator(const toml::table& table, const Reading& reading, Actuato
   read_travel(actuator, table, keys, reading);
   actuator.home = joint_value(table, keys.home, keys, 0, reading);
   read_shown(table, reading, before, actuator);
+  if (actuator.program_axis > 0) refuse_error_table(table, reading.source);
   return actuator;
 }
 

@@ -53,12 +53,11 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const Source source(text, file);
   const toml::table document = source.parse();
   check_format(document, source);
-  check_keys(
-      document,
-      {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
-       "tools", "work", "program", "controller", "limits", "parameters", "springs", "branches", "templates",
-       "chain"},
-      "a machine file", source);
+  check_keys(document,
+             {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
+              "tools", "work", "program", "controller", "limits", "parameters", "springs", "error_tables",
+              "branches", "templates", "chain"},
+             "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
     machine.name = without_controls(as_text(*name, "name", source));

@@ -70,7 +70,8 @@ struct Single::Impl {
                   .transforms = &transforms,
                   .load = stage.load,
                   .preload = stage.preload,
-                  .gravity = stage.gravity};
+                  .gravity = stage.gravity,
+                  .errors = stage.errors};
     coupled.begin({.real = true, .moves_actuators = waypoint.X_MT != nullptr});
     w.load = vec6(waypoint.load.F.data());
     const Pose X_MT = waypoint.X_MT ? *waypoint.X_MT : start.X_MP * mechanism.X_PT;

@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "statics/model/home.hpp"
+#include "statics/model/motion_errors.hpp"
 #include "statics/model/part.hpp"
 
 namespace counterflex {
@@ -27,7 +28,8 @@ struct Compiler {
     for (bool a : angular) {
       (part.kind == PartKind::actuator ? series.commanded : series.free).push_back(series.columns++);
       series.angular.push_back(a);
-      turns = turns || a;
+      series.screws.push_back(!part.errors.empty());
+      turns = turns || a || !part.errors.empty();
     }
   }
   void joint_column(Part& part) { columns(part, {part.joint.kind == JointKind::revolute}); }
@@ -41,6 +43,7 @@ struct Compiler {
     if (e.program_axis > 0) return {.kind = PartKind::fixed, .X = displacement(e.joint, e.home)};
     Part part{
         .kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
+    if (e.errors) part.errors = motion_errors(*e.errors, e.shown);
     numbering.travel.push_back({e.min, e.max, e.joint.kind});
     series.actuators.push_back(part.actuator);
     joint_column(part);
@@ -97,6 +100,17 @@ Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& 
   return series;
 }
 
+void note_spacing(const Series& series, Mechanism& mechanism) {
+  for (const Part& part : series.parts) {
+    double& least =
+        part.joint.kind == JointKind::prismatic ? mechanism.error_spacing : mechanism.error_spacing_angle;
+    for (std::size_t k = 1; k < part.errors.rho.size(); ++k)
+      least = std::min(least, part.errors.rho[k] - part.errors.rho[k - 1]);
+  }
+  for (const SeriesGroup& group : series.groups)
+    for (const Series& branch : group.branches) note_spacing(branch, mechanism);
+}
+
 }  // namespace
 
 Mechanism compile(const Machine& machine) {
@@ -112,6 +126,7 @@ Mechanism compile(const Machine& machine) {
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));
+  for (const Series& chain : mechanism.chains) note_spacing(chain, mechanism);
   const std::vector<std::string> names = actuator_names(machine);
   for (std::size_t i = 0; i < names.size(); ++i) mechanism.travel[i].name = names[i];
   return mechanism;

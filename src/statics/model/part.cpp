@@ -1,5 +1,7 @@
 #include "statics/model/part.hpp"
 
+#include "statics/model/motion_errors.hpp"
+
 namespace counterflex {
 
 Pose displacement(const Joint& joint, double value) {
@@ -22,7 +24,14 @@ Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage) {
     default:
       break;
   }
+  if (!part.errors.empty()) return actuator_motion(part, state, stage).X;
   return displacement(part.joint, state.x[part.column] + stage.gravity * part.offset);
+}
+
+JointMotion actuator_motion(const Part& part, const SeriesState& state, const Stage& stage) {
+  const double commanded = state.x[part.column];
+  return joint_motion(part.joint, part.errors, commanded + stage.gravity * part.offset, commanded,
+                      stage.errors);
 }
 
 int columns_of(const Part& part) {

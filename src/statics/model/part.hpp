@@ -1,6 +1,6 @@
 #pragma once
 /// One part of a series at one state: its transform, and what deflects it.
-#include "counterflex/statics/mechanism.hpp"
+#include "statics/model/motion_errors.hpp"
 
 namespace counterflex {
 
@@ -9,6 +9,9 @@ Pose displacement(const Joint& joint, double value);
 
 /// Pose of the frame after a part in the frame before it.
 Pose part_pose(const Part& part, const SeriesState& state, const Stage& stage);
+
+/// How an actuator moves that has errors of motion.
+JointMotion actuator_motion(const Part& part, const SeriesState& state, const Stage& stage);
 
 /// Number of its columns.
 int columns_of(const Part& part);

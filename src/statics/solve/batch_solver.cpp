@@ -215,7 +215,8 @@ void BatchSolver::nominal_tips(std::span<const TurnedPlace> places, std::span<No
 LineBend BatchSolver::bend_along(const BatchLine& line) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const kernel::StartCell* cell = impl_->target_at((line.p0 + line.p1) / 2);
-  if (cell == nullptr) return {infinity, infinity};
+  // The expansion of a cell misses the bends of error tables inside it.
+  if (cell == nullptr || !impl_->table.flat.machine.motions.empty()) return {infinity, infinity};
   const Vector3 centre(cell->centre[0], cell->centre[1], cell->centre[2]);
   for (const Vector3& p : {line.p0, line.p1})
     if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.reach)) return {infinity, infinity};

@@ -101,6 +101,7 @@ kernel::Question StartTable::Impl::question(Acting acting) const {
   kernel::Question question{.machine = &flat.machine};
   question.transforms = acting.errors ? &real : &perfect;
   question.gravity = acting.gravity ? 1 : 0;
+  question.errors = acting.errors ? 1 : 0;
   return question;
 }
 

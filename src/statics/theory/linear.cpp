@@ -8,6 +8,8 @@
 namespace counterflex {
 namespace {
 
+constexpr Stage errors_alone{.errors = 1, .load = 0, .preload = 0, .gravity = 0};
+
 // eps of a series by its own errors: each error's (p, Log R), carried to the end by the nominal frames. What
 // the controller's zero holds against the weights moves the end likewise.
 Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& stage,
@@ -21,6 +23,12 @@ Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& s
       const Vector3 w = factor * (X.R * part.log_R);
       eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
       eps.tail<3>() += w;
+    }
+    if (!part.errors.empty()) {
+      const Pose X_after = X * part_pose(part, nominal, nominal_stage);
+      const Vector6 e = factor * difference(X * part_pose(part, nominal, errors_alone), X_after);
+      eps.head<3>() += e.head<3>() + e.tail<3>().cross(end.p - X_after.p);
+      eps.tail<3>() += e.tail<3>();
     }
     if (part.kind == PartKind::actuator) {
       eps.head<3>() += stage.gravity * part.offset * work.v.col(part.column);

@@ -8,8 +8,8 @@ namespace counterflex {
 namespace {
 
 // Axes of the columns of a part between the frames `X` and `X_after`, and where they pass.
-void place_columns(const Part& part, const SeriesState& state, const Pose& X, const Pose& X_after,
-                   SeriesWork& work) {
+void place_columns(const Series& series, const Part& part, const SeriesState& state, const Stage& stage,
+                   const Pose& X, const Pose& X_after, SeriesWork& work) {
   const int c = part.column;
   if (columns_of(part) == 6) {
     const bool spring = part.kind == PartKind::spring;
@@ -17,6 +17,11 @@ void place_columns(const Part& part, const SeriesState& state, const Pose& X, co
     work.w.middleCols<3>(c).setZero();
     work.w.middleCols<3>(c + 3) = spring ? Matrix3(X.R * left_jacobian(state.x.segment<3>(c + 3))) : X.R;
     work.point.middleCols<3>(c + 3).colwise() = X_after.p;
+  } else if (series.screws[c]) {
+    const JointMotion motion = actuator_motion(part, state, stage);
+    work.along.col(c) = X.R * motion.v;
+    work.w.col(c) = X.R * motion.w;
+    work.point.col(c) = X_after.p;
   } else if (part.joint.kind == JointKind::prismatic) {
     work.v.col(c) = X.R * part.joint.axis;
     work.w.col(c).setZero();
@@ -33,12 +38,14 @@ void place(const Series& series, const SeriesState& state, const Stage& stage, S
   for (const Part& part : series.parts) {
     if (part.kind == PartKind::mass) work.masses.point.col(mass++) = X * part.X.p;
     const Pose X_after = X * part_pose(part, state, stage);
-    if (part.column >= 0) place_columns(part, state, X, X_after, work);
+    if (part.column >= 0) place_columns(series, part, state, stage, X, X_after, work);
     X = X_after;
   }
   work.end = X;
-  for (int c = 0; c < series.columns; ++c)  // v = w x (p_E - o)
-    if (series.angular[c]) work.v.col(c) = work.w.col(c).cross(X.p - work.point.col(c));
+  for (int c = 0; c < series.columns; ++c) {  // v = w x (p_E - o)
+    if (series.turns(c)) work.v.col(c) = work.w.col(c).cross(X.p - work.point.col(c));
+    if (series.screws[c]) work.v.col(c) += work.along.col(c);
+  }
 }
 
 // Energy: its gradient, and its second derivatives into A.
@@ -127,6 +134,7 @@ SeriesWork make_work(const Series& series) {
   work.v.setZero(3, n);
   work.w.setZero(3, n);
   work.point.setZero(3, n);
+  work.along.setZero(3, n);
   work.f_x_w.setZero(3, n);
   work.S.setZero(n, n);
   work.A.setZero(n, n);

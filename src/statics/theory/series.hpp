@@ -39,6 +39,7 @@ struct SeriesWork {
   Eigen::Matrix<double, 3, Eigen::Dynamic> v,
       w;  ///< twist of the end per column: translation, rotation (start axes)
   Eigen::Matrix<double, 3, Eigen::Dynamic> point;  ///< where a column's axis passes
+  Eigen::Matrix<double, 3, Eigen::Dynamic> along;  ///< of a screw: velocity of that point
   Eigen::Matrix<double, 3, Eigen::Dynamic> f_x_w;
   Eigen::MatrixXd S;
   Eigen::MatrixXd A;         ///< K - H over all columns; a group's own stiffness is not in it

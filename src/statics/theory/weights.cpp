@@ -18,15 +18,16 @@ struct MassesAfter {
   }
 };
 
-// v of a mass is w x (p - o), or the axis along which a column moves it.
+// v of a mass is w x (p - o), or the axis along which a column moves it; of a screw their sum.
 void carry_column(const Series& series, int c, const MassesAfter& after, SeriesWork& work) {
   MassWork& masses = work.masses;
-  if (!series.angular[c]) {
+  if (!series.turns(c)) {
     masses.V.col(c) = after.mass * work.v.col(c);
     return;
   }
   masses.arm.col(c) = after.moment - after.mass * work.point.col(c);
   masses.V.col(c) = work.w.col(c).cross(masses.arm.col(c));
+  if (series.screws[c]) masses.V.col(c) += after.mass * work.along.col(c);
 }
 
 // A group's end does not carry the masses of its branches; what carries its start does.
@@ -94,13 +95,13 @@ void enter_lean(const Series& series, const Part& group, const SeriesWork& branc
   const Matrix3 N_w = R * inner.N.middleCols<3>(w) * R.transpose();
   const Matrix63 G_w = inner.G_w * R.transpose();
   for (int k = 0; k < c; ++k) {
-    if (!series.angular[k]) continue;
+    if (!series.turns(k)) continue;
     const Vector3 w_k = work.w.col(k), N_w_k = N_w.transpose() * w_k;
     work.gradient[k] += w_k.dot(N_0);
     work.A.block<1, 6>(k, c) += w_k.transpose() * N_xi;
     work.A.block<6, 1>(c, k) += G_w * w_k;
     for (int j = 0; j < c; ++j)
-      if (series.angular[j]) work.A(k, j) += N_w_k.dot(work.w.col(j));
+      if (series.turns(j)) work.A(k, j) += N_w_k.dot(work.w.col(j));
     if (!series.leans) continue;
     work.lean.A_w.row(k) += N_w_k.transpose();
     work.lean.N_x.col(k) += N_w * w_k;

@@ -85,7 +85,7 @@ struct Assembler {
     std::vector<Turning> list;
     for (const Turning& turning : outside) list.push_back({turning.variable, R.transpose() * turning.w});
     for (int k = 0; k < group.column; ++k)
-      if (series.angular[k]) list.push_back({v0 + k, R.transpose() * work.w.col(k)});
+      if (series.turns(k)) list.push_back({v0 + k, R.transpose() * work.w.col(k)});
     return list;
   }
 

@@ -1,6 +1,7 @@
 /// Jacobian and Hessian of series far from equilibrium, against central differences.
 #include "counterflex/statics/chain.hpp"
 #include "statics/support/laws_states.hpp"
+#include "statics/support/laws_tables.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -24,14 +25,18 @@ template <class Check>
 void for_shaken_chains(unsigned seed, const Check& check) {
   for (const std::string name :
        {"orthoglide_case_b", "hexapod_joint_springs", "serial6r_link6", "laws_mixed", "cantilever", "arm"}) {
-    CAPTURE(name);
-    const Model model = model_of(name);
-    StaticsWork work(model.mechanism);
-    Random random(seed);
-    for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
-      CAPTURE(i);
-      const SeriesState state = shaken(model.mechanism.chains[i], model.home.chains[i], random);
-      check(model, i, state, work);
+    for (const double tables : {0.0, 1.0}) {
+      CAPTURE(name);
+      CAPTURE(tables);
+      const Machine machine = machine_of(name);
+      const Model model = prepare(tables > 0 ? with_tables(machine, tables) : machine);
+      StaticsWork work(model.mechanism);
+      Random random(seed);
+      for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
+        CAPTURE(i);
+        const SeriesState state = shaken(model.mechanism.chains[i], model.home.chains[i], random);
+        check(model, i, state, work);
+      }
     }
   }
 }
@@ -64,7 +69,9 @@ TEST_CASE("the Hessian of a chain is the derivative of J'F with the wrench held"
             return chain_jacobian(model, i, stepped(series, state, c, h), {}, work).transpose() * state.F;
           },
           1e-4);
-      CHECK((H.col(c) - expected).cwiseAbs().maxCoeff() < 1e-8);  // entries are of hundreds of N, N m
+      Eigen::VectorXd miss = H.col(c) - expected;
+      if (series.screws[static_cast<std::size_t>(c)]) miss[c] = 0;  // no equation has this entry
+      CHECK(miss.cwiseAbs().maxCoeff() < 1e-8);                     // entries are of hundreds of N, N m
     }
   });
 }

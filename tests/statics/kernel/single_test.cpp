@@ -1,5 +1,6 @@
 /// Single waypoints solved by the kernel, beside steps of the whole system.
 #include "solve/newton.hpp"
+#include "statics/support/laws_tables.hpp"
 #include "statics/support/laws_weights.hpp"
 
 using namespace counterflex;
@@ -21,10 +22,11 @@ void compare(const SeriesState& a, const SeriesState& b) {
 
 TEST_CASE("the kernel's configuration in any stage solves the whole system, in every coordinate and wrench") {
   for (const Trial& trial : controlled_machines())
-    for (const double kg : {0.0, 1.0}) {
+    for (const double kg : {0.0, 1.0, 2.0}) {
       CAPTURE(trial.name);
       CAPTURE(kg);
-      const Model model = kg > 0 ? heavy_model_of(trial.name, kg) : model_of(trial.name);
+      const Machine machine = kg > 0 ? heavy(machine_of(trial.name), kg) : machine_of(trial.name);
+      const Model model = prepare(kg == 2 ? with_tables(machine, 0.3) : machine);
       StaticsWork work(model.mechanism);
       Random random(301);
       const Configuration nominal = somewhere(model, trial, random).configuration;

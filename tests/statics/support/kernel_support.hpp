@@ -66,7 +66,7 @@ struct FlatBench {
   kernel::Question question(const Stage& stage = {}) const {
     kernel::Question q{.machine = &flat.machine};
     q.transforms = stage.errors == 0 ? &perfect : &real;
-    q.load = stage.load, q.preload = stage.preload, q.gravity = stage.gravity;
+    q.load = stage.load, q.preload = stage.preload, q.gravity = stage.gravity, q.errors = stage.errors;
     return q;
   }
   kernel::Question nominal() const { return kernel::nominal_question(rigid.machine, rigid_transforms); }

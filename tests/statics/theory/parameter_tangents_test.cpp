@@ -4,6 +4,7 @@
 
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "statics/support/laws_tables.hpp"
 
 using namespace counterflex;
 
@@ -80,6 +81,9 @@ TEST_CASE("tangents of the tip by parameters are central differences of solved m
   }
   SUBCASE("a hexapod") {
     check_tangents(sample("hexapod"));
+  }
+  SUBCASE("a hexapod with tables of errors") {
+    check_tangents(laws::with_tables(sample("hexapod"), 0.3));
   }
   SUBCASE("a milling machine") {
     check_tangents(sample("mill3"));

@@ -2,6 +2,7 @@
 #include "theory/whole_system.hpp"
 
 #include "solve/newton.hpp"
+#include "statics/support/laws_tables.hpp"
 #include "statics/support/laws_weights.hpp"
 
 using namespace counterflex;
@@ -23,36 +24,42 @@ void compare(const SeriesState& a, const SeriesState& b, double force) {
 
 TEST_CASE("the whole system takes the same Newton step as the condensed one, with and without weights") {
   for (const Trial& trial : controlled_machines())
-    for (const bool weights : {false, true}) {
-      CAPTURE(trial.name);
-      CAPTURE(weights);
-      const Model model = weights ? heavy_model_of(trial.name) : model_of(trial.name);
-      const Units units{model.mechanism.length};
-      StaticsWork work(model.mechanism);
-      Random random(101);
-      const Configuration nominal = somewhere(model, trial, random).configuration;
-      const Equilibrium e = solve_forward(model, nominal, random.load(trial), {}, work);
-      REQUIRE(e.status == Status::converged);
-      const Problem problem{
-          random.load(trial), {0.9, 1, 0.8, 0.7}, nullptr};  // from here the step is not small
-      evaluate_all(model, e.configuration, problem.stage, work.impl());
-      Configuration whole = e.configuration;
-      const WholeStep step =
-          solve_whole(whole_system(model, whole, problem, work.impl()), std::nullopt, units);
-      CHECK_FALSE(step.redundant);
-      CHECK(apply(model.mechanism, step, units, whole) > 1e-6);
-      const Configuration condensed = condensed_step(model, e.configuration, problem, units, work.impl());
-      CHECK(difference(whole.X_MP, condensed.X_MP).norm() < 1e-10);
-      for (std::size_t i = 0; i < whole.chains.size(); ++i)
-        compare(whole.chains[i], condensed.chains[i], 100);
-    }
+    for (const bool weights : {false, true})
+      for (const bool tables : {false, true}) {
+        CAPTURE(trial.name);
+        CAPTURE(weights);
+        CAPTURE(tables);
+        const Machine machine = weights ? heavy(machine_of(trial.name), 1) : machine_of(trial.name);
+        const Model model = prepare(tables ? with_tables(machine, 0.3) : machine);
+        const Units units{model.mechanism.length};
+        StaticsWork work(model.mechanism);
+        Random random(101);
+        const Configuration nominal = somewhere(model, trial, random).configuration;
+        const Equilibrium e = solve_forward(model, nominal, random.load(trial), {}, work);
+        REQUIRE(e.status == Status::converged);
+        const Problem problem{
+            random.load(trial), {0.9, 1, 0.8, 0.7}, nullptr};  // from here the step is not small
+        evaluate_all(model, e.configuration, problem.stage, work.impl());
+        Configuration whole = e.configuration;
+        const WholeStep step =
+            solve_whole(whole_system(model, whole, problem, work.impl()), std::nullopt, units);
+        CHECK_FALSE(step.redundant);
+        CHECK(apply(model.mechanism, step, units, whole) > 1e-6);
+        const Configuration condensed = condensed_step(model, e.configuration, problem, units, work.impl());
+        CHECK(difference(whole.X_MP, condensed.X_MP).norm() < 1e-10);
+        for (std::size_t i = 0; i < whole.chains.size(); ++i)
+          compare(whole.chains[i], condensed.chains[i], 100);
+      }
 }
 
 TEST_CASE("with actuators unknown and a target, the whole system's solution is the condensed one's") {
-  for (const std::string name :
-       {"orthoglide_case_b", "laws_mixed", "serial6r_link6", "laws_mixed with weights"}) {
+  for (const std::string name : {"orthoglide_case_b", "laws_mixed", "serial6r_link6",
+                                 "laws_mixed with weights", "laws_mixed with weights and tables"}) {
     CAPTURE(name);
-    const Model model = name.ends_with("weights") ? heavy_model_of("laws_mixed") : model_of(name);
+    const Model model = name.ends_with("weights") ? heavy_model_of("laws_mixed")
+                        : name.ends_with("tables")
+                            ? prepare(with_tables(heavy(machine_of("laws_mixed"), 1), 0.3))
+                            : model_of(name);
     const Units units{model.mechanism.length};
     StaticsWork work(model.mechanism);
     const Load load{(Vector6() << 60, -40, 30, 2, -1, 3).finished(), false};

@@ -33,11 +33,39 @@ COUNTERFLEX_INLINE void turn_about(T cosine, T sine, Frame<T>& X) {
   }
 }
 
+/// Passes an actuator with errors of motion. Few machines have any.
+template <class T>
+[[gnu::noinline, gnu::cold]] void pass_with_errors(const FrameStep& step, Work<T>& work, Frame<T>& X) {
+  const ErrorMotion& motion = at(work.machine.motions, step.motion);
+  const T& q = at(work.state.joints, step.joint).q;
+  const double offset = work.question.gravity * at(work.machine.actuator_offset, step.actuator);
+  Frame<T> of_joint{};
+  Vec6<T> velocity{};
+  for (int l = 0; l < lane_count<T>; ++l) {
+    const MotionNumbers numbers = motion_numbers(motion, lane(q, l), offset, work.question.errors);
+    for (int i = 0; i < 9; ++i) lane(of_joint.R.c[i], l) = at(numbers, i);
+    for (int i = 0; i < 3; ++i) lane(of_joint.p[i], l) = at(numbers, 9 + i);
+    for (int i = 0; i < 6; ++i) lane(velocity[i], l) = at(numbers, 12 + i);
+  }
+  Frame<T> before = X, behind = X;
+  if (step.direction > 0) {
+    behind.R = X.R * of_joint.R;
+    behind.p = X.p + X.R * of_joint.p;
+  } else {
+    before.R = times_transposed(X.R, of_joint.R);
+    before.p = X.p - before.R * of_joint.p;
+  }
+  const Vec3<T> w = before.R * velocity.w;
+  at(work.equations.joints, step.joint).s = {before.R * velocity.v + cross(behind.p, w), w};
+  X = step.direction > 0 ? behind : before;
+}
+
 /// Passes a step from frame to frame; a joint's screw is noted.
 template <class T>
 COUNTERFLEX_INLINE void pass(const FrameStep& step, Work<T>& work, Frame<T>& X) {
   if (step.kind == StepKind::transform)
     return pass_transform(at(*work.question.transforms, step.transform), X);
+  if (step.motion >= 0) return pass_with_errors(step, work, X);
   Vec6<T>& s = at(work.equations.joints, step.joint).s;
   const Vec3<T> axis{
       {X.R(0, step.axis) * step.sign, X.R(1, step.axis) * step.sign, X.R(2, step.axis) * step.sign}};

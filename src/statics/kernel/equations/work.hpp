@@ -17,6 +17,7 @@ struct Question {
   /// Rigid transforms, with as much of the errors as acts.
   const std::vector<Transform>* transforms = nullptr;
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
+  double errors = 1;                          ///< and of the errors of motion
 };
 
 /// The kinematics of a rigid machine without errors, of which `transforms` are.

@@ -9,6 +9,8 @@
 #include <array>
 #include <vector>
 
+#include "counterflex/statics/motion_errors.hpp"
+
 namespace counterflex::kernel {
 
 /// A rigid transform; the flags show which parts are not zero.
@@ -31,6 +33,7 @@ struct FrameStep {
   double direction = 1;  ///< +1: passed from base to platform, -1: backwards
   int joint = -1;        ///< number of the joint in the state
   int actuator = -1;     ///< number of the actuator; -1: the joint is free
+  int motion = -1;       ///< of an actuator with errors of its motion: index into FlatMachine::motions
   double k = 0;          ///< of a free joint: N/m or N m/rad
   double rest = 0;       ///< value without force (m, rad)
   /// Its spring is relaxed in the nominal configuration, as far as preloads do not act.
@@ -41,6 +44,20 @@ struct FrameStep {
 
   bool is_joint() const { return kind == StepKind::slide || kind == StepKind::turn; }
 };
+
+/// The motion of an actuator with errors. Its axis may have any direction.
+struct ErrorMotion {
+  bool turns = false;
+  std::array<double, 3> axis{};
+  MotionErrors errors{};
+};
+
+/// Its numbers at one value: rotation row by row and position of the frame behind it, and the velocities of
+/// that frame, in the frame before it.
+using MotionNumbers = std::array<double, 18>;
+
+/// At the joint value `q`, which is `offset` more than the commanded one, with a share of the errors.
+MotionNumbers motion_numbers(const ErrorMotion& motion, double q, double offset, double share);
 
 enum class ElementKind { spring, group };
 
@@ -91,6 +108,7 @@ struct FlatMachine {
   std::vector<Element> elements;
   std::vector<Series> series;  ///< the chains first
   std::vector<Spring> springs;
+  std::vector<ErrorMotion> motions;
   std::vector<int> slots;      ///< Element::slots
   std::vector<int> actuators;  ///< Series::actuators: numbers of actuators
   std::vector<Weight> weights;

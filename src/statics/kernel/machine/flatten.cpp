@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/equations/work.hpp"
+#include "statics/model/motion_errors.hpp"
 
 namespace counterflex::kernel {
 namespace {
@@ -154,6 +155,7 @@ class SeriesFlattener {
   }
 
   void add_joint(const Part& part) {
+    if (!part.errors.empty() && !parts_.flat.rigid) return add_erroneous_joint(part);
     FrameStep step;
     step.kind = part.joint.kind == JointKind::prismatic ? StepKind::slide : StepKind::turn;
     step.axis = -1;
@@ -171,6 +173,18 @@ class SeriesFlattener {
     if (part.kind == PartKind::actuator) at(machine_.actuator_offset, part.actuator) = part.offset;
     stretch().items.push_back({step, {}, {number_, part.column}});
     if (oblique) stretch().open.push_back({inverse(turned)});
+  }
+
+  void add_erroneous_joint(const Part& part) {
+    FrameStep step;
+    step.kind = part.joint.kind == JointKind::prismatic ? StepKind::slide : StepKind::turn;
+    step.actuator = part.actuator;
+    step.motion = static_cast<int>(machine_.motions.size());
+    const Vector3& axis = part.joint.axis;
+    machine_.motions.push_back({step.kind == StepKind::turn, {axis[0], axis[1], axis[2]}, part.errors});
+    at(machine_.actuator_offset, part.actuator) = part.offset;
+    stretch().close();
+    stretch().items.push_back({step, {}, {number_, part.column}});
   }
 
   void begin_six(const Part& part) {
@@ -363,6 +377,19 @@ Flat flatten(const Mechanism& mechanism, bool load_at_platform, bool rigid) {
 }
 
 }  // namespace
+
+MotionNumbers motion_numbers(const ErrorMotion& motion, double q, double offset, double share) {
+  const Joint joint{motion.turns ? JointKind::revolute : JointKind::prismatic,
+                    Vector3(motion.axis[0], motion.axis[1], motion.axis[2])};
+  const JointMotion at = joint_motion(joint, motion.errors, q, q - offset, share);
+  MotionNumbers numbers;
+  for (std::size_t i = 0; i < 3; ++i) {
+    const auto k = static_cast<Eigen::Index>(i);
+    for (Eigen::Index j = 0; j < 3; ++j) numbers[3 * i + static_cast<std::size_t>(j)] = at.X.R(k, j);
+    numbers[9 + i] = at.X.p[k], numbers[12 + i] = at.v[k], numbers[15 + i] = at.w[k];
+  }
+  return numbers;
+}
 
 Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
   return flatten(mechanism, load_at_platform, false);

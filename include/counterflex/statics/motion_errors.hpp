@@ -1,0 +1,18 @@
+#pragma once
+/// The errors of an actuator's motion, compiled. The kernel reads this: it has only the standard library.
+#include <array>
+#include <vector>
+
+namespace counterflex {
+
+/// Errors as functions of the actuator's value: a cubic between knots, constant outside.
+struct MotionErrors {
+  using Six = std::array<double, 6>;  ///< translation (m), rotation vector (rad); axes of the frame before
+
+  std::vector<double> rho{};          ///< knots, increasing (m, rad); empty: no errors
+  std::vector<Six> value{}, slope{};  ///< at them; slopes per m or rad
+
+  bool empty() const { return rho.empty(); }
+};
+
+}  // namespace counterflex
