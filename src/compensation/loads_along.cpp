@@ -100,14 +100,16 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
       requests.push_back({.model = place.model,
                           .target = place.target,
                           .F = place.load.F,
-                          .R = commanded_orientation(place.at)});
+                          .R = commanded_orientation(place.at),
+                          .directions = place.at.directions});
     std::vector<ForwardAnswer> answers(count);
     solver.forwards(requests, answers, StopAt::end);
     for (std::size_t i = 0; i < count; ++i) {
       if (answers[i].status != Status::converged) continue;
       const LoadPlace& place = places[begin + i];
-      const NominalResult commanded =
-          solver.nominal({place.model, place.target, requests[i].R}, answers[i].rho);
+      Eigen::VectorXd joints = answers[i].rho;
+      if (has_reversals(*place.model)) joints += lag_of(place.model->mechanism, place.at.directions);
+      const NominalResult commanded = solver.nominal({place.model, place.target, requests[i].R}, joints);
       if (commanded.status != Status::converged) continue;
       StaticsWork work(place.model->mechanism);
       const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
@@ -134,7 +136,8 @@ std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* st
                                        {original, position[0].R_MT},
                                        {place.target, commanded_orientation(place.at)},
                                        place.load.F,
-                                       wanted[0].X_MT}}};
+                                       wanted[0].X_MT,
+                                       place.at.directions}}};
   std::array<Waypoint, 1> at{place.at};
   add_causes(solver, solved, at);
   return at[0].status == Status::converged ? std::optional(*at[0].causes) : std::nullopt;
@@ -152,7 +155,8 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
       requests.push_back({.model = place.model,
                           .target = place.target,
                           .F = factor * place.load.F,
-                          .R = commanded_orientation(place.at)});
+                          .R = commanded_orientation(place.at),
+                          .directions = place.at.directions});
     }
     std::vector<WantedPose> wanted(count);
     std::vector<ForwardAnswer> answers(count);

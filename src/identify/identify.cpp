@@ -89,6 +89,8 @@ Candidates candidates(const Machine& machine, const std::vector<ParameterSet>& s
   const std::vector<bool> zeros = zeros_of(machine);
   std::vector<double> before, prior, least;
   for (std::size_t i = 0; i < all.size(); ++i) {
+    // Rows do not state the direction from which a position was reached.
+    if (all[i].kind == ParameterKind::reversal) continue;
     const ParameterSet set = set_of(all[i], zeros[i]);
     if (!is_in(set, sets)) continue;
     const auto stated = std::find_if(machine.parameters.begin(), machine.parameters.end(),

@@ -10,7 +10,8 @@ namespace {
 void make_perfect(std::vector<Element>& elements) {
   for (Element& element : elements) {
     if (auto* error = std::get_if<AssemblyError>(&element)) error->X = Pose{};
-    if (auto* actuator = std::get_if<Actuator>(&element)) actuator->errors.reset();
+    if (auto* actuator = std::get_if<Actuator>(&element))
+      actuator->errors.reset(), actuator->reversal.reset();
     if (auto* group = std::get_if<Group>(&element))
       for (Branch& branch : group->branches) make_perfect(branch.elements);
   }

@@ -7,6 +7,7 @@
 #include <array>
 #include <map>
 #include <string_view>
+#include <utility>
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/parameter_places.hpp"
@@ -41,6 +42,7 @@ double read(const ParameterPlace& place) {
   if (const auto* error = std::get_if<AssemblyError>(place.element)) return components(error->X)[i];
   if (const auto* joint = std::get_if<Compliance>(place.element)) return 1 / joint->stiffness;
   if (const auto* mass = std::get_if<PointMass>(place.element)) return mass->kg;
+  if (const auto* actuator = std::get_if<Actuator>(place.element)) return *actuator->reversal;
   const auto& spring = std::get<Spring>(*place.element);
   return i >= 0 ? 1 / spring.K(i, i) : mean_compliance(spring.K);
 }
@@ -55,6 +57,8 @@ void write(const ParameterPlace& place, double value) {
     joint->stiffness = 1 / value;
   } else if (auto* mass = std::get_if<PointMass>(place.element)) {
     mass->kg = value;
+  } else if (auto* actuator = std::get_if<Actuator>(place.element)) {
+    actuator->reversal = value;
   } else if (auto& spring = std::get<Spring>(*place.element); i >= 0) {
     spring.K(i, i) = 1 / value;
   } else {
@@ -65,7 +69,8 @@ void write(const ParameterPlace& place, double value) {
 /// Lists the parameters of a series of elements.
 class Lister {
  public:
-  explicit Lister(std::vector<ParameterPlace>& list) : list_(list) {}
+  Lister(std::vector<ParameterPlace>& list, std::vector<std::string> actuators)
+      : list_(list), actuators_(std::move(actuators)) {}
 
   void add(std::vector<Element>& elements, const std::string& prefix) {
     int compliances = 0, masses = 0;
@@ -88,6 +93,8 @@ class Lister {
       } else if (auto* spring = std::get_if<Spring>(&element)) {
         const int count = ++springs[spring->name];
         add_spring(element, prefix + spring->name + (count == 1 ? "" : fmt::format("({})", count)));
+      } else if (std::holds_alternative<Actuator>(element)) {
+        add_reversal(element);
       } else if (auto* group = std::get_if<Group>(&element)) {
         for (Branch& branch : group->branches) add(branch.elements, prefix + branch.name + ".");
       }
@@ -95,6 +102,18 @@ class Lister {
   }
 
  private:
+  /// "axis X" is X, "chain a" is a, "actuator 3" is J3.
+  void add_reversal(Element& element) {
+    const auto& actuator = std::get<Actuator>(element);
+    if (actuator.program_axis > 0) return;
+    const std::string& name = actuators_[next_actuator_++];
+    if (!actuator.reversal) return;
+    const bool turns = actuator.joint.kind == JointKind::revolute;
+    list_.push_back({(name.starts_with("actuator ") ? "J" : "") + name.substr(name.find(' ') + 1) +
+                         (turns ? ".reversal_mdeg" : ".reversal_um"),
+                     ParameterKind::reversal, turns ? 1e-3 * deg : um, &element});
+  }
+
   void add_spring(Element& element, const std::string& name) {
     const Matrix6& K = std::get<Spring>(element).K;
     if (!is_diagonal(K)) {
@@ -109,13 +128,15 @@ class Lister {
   }
 
   std::vector<ParameterPlace>& list_;
+  const std::vector<std::string> actuators_;
+  std::size_t next_actuator_ = 0;
 };
 
 }  // namespace
 
 std::vector<ParameterPlace> parameter_places(Machine& machine) {
   std::vector<ParameterPlace> list;
-  Lister lister(list);
+  Lister lister(list, actuator_names(machine));
   for (Chain& chain : machine.chains)
     lister.add(chain.elements, machine.chains.size() == 1 ? "" : chain.name + ".");
   std::map<std::string, int> seen;  // branches used twice in one chain

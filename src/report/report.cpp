@@ -161,6 +161,9 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tools = used_tools(context.machine, context.program.tools);
   report.tools_assumed = tools_in_words(report.tools, context.program.tools);
   report.gravity = gravity_in_words(context.machine);
+  report.reversals = tally.reversals();
+  for (const Corrected what : context.machine.already_corrects)
+    report.already_corrected.emplace_back(corrected_names[static_cast<std::size_t>(what)]);
   report.not_modelled = not_modelled(context.machine);
   return report;
 }

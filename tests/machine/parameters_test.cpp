@@ -125,3 +125,22 @@ TEST_CASE("bad parameters are refused at their place") {
         std::string::npos);
   CHECK(parameter_error(R"("mount.x_mm" = { source = "guess" })").find("\"guess\"") != std::string::npos);
 }
+
+TEST_CASE("the reversal of an actuator is a parameter by the name of its axis, also if it is zero") {
+  const Machine machine = read_machine(
+      "format = \"counterflex-machine 1\"\n[parameters]\n\"Y.reversal_um\" = { value = 7, source = "
+      "\"measured\", sigma = 2 }\n[[chain]]\nname = \"axes\"\nelements = [\n"
+      "{ actuator = \"prismatic\", axis = \"x\" },\n"
+      "{ actuator = \"prismatic\", axis = \"y\", reversal_um = 0 },\n"
+      "{ actuator = \"revolute\", axis = \"z\", reversal_arcsec = 18 },\n]\n",
+      "m.toml");
+  const std::vector<Parameter> list = parameters(machine);
+  REQUIRE(list.size() == 2);
+  CHECK(list[0].name == "Y.reversal_um");
+  CHECK(list[0].kind == ParameterKind::reversal);
+  CHECK(list[0].value == doctest::Approx(7e-6));
+  CHECK(list[1].name == "C.reversal_mdeg");
+  CHECK(list[1].value / list[1].unit == doctest::Approx(5));
+  const Machine other = with_parameters(machine, {1e-5, list[1].value});
+  CHECK(*std::get<Actuator>(other.chains[0].elements[1]).reversal == 1e-5);
+}

@@ -8,6 +8,7 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/compensation/path_directions.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/program/boxed_optional.hpp"
@@ -57,7 +58,14 @@ struct Job {
   const ToolModels* tools = nullptr;    ///< of tools that make the machine another one; none: `model` is all
   const StartTables* starts = nullptr;  ///< of the kernel; none: waypoints are solved one by one
   std::optional<TipPosition> from{};    ///< of a window: where the path before it ended
+  /// How actuators move along the path; none: not known, their joints do not lag.
+  const PathDirections* directions = nullptr;
 };
+
+/// How actuators move at a fraction of a move, on the side that ends or begins there.
+inline Directions directions_at(const Job& job, std::size_t move, double u, Side side) {
+  return job.directions == nullptr ? Directions{} : job.directions->at(move, u, side);
+}
 
 /// The machine with tool number `tool` in its spindle.
 const Model& model_with(const Model& model, const ToolModels* tools, long tool);
@@ -100,6 +108,7 @@ struct Piece {
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
   bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
   std::int32_t tool = 0;    ///< in the spindle, where there is no segment
+  Directions directions{};  ///< at its end, where there is no segment
 };
 
 /// Where a deviation comes from, and what it becomes without the force; as for a waypoint.
@@ -131,6 +140,7 @@ struct Waypoint {
   Vector6 after = Vector6::Zero();       ///< the emitted target, solved forward
   Vector6 correction = Vector6::Zero();  ///< emitted target minus the original program's
   Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
+  Directions directions;                 ///< in which they came there
   BoxedOptional<Causes> causes;          ///< where they were asked for and `before` is known
   Status status = Status::converged;
   int iterations = 0;

@@ -63,6 +63,8 @@ struct RunInput {
   const ReadOptions& read;
   const ToolModels* tools = nullptr;    ///< as for a job
   const StartTables* starts = nullptr;  ///< as for a job
+  Directions first_directions{};        ///< of actuators before they have moved:
+                                        ///< `first_directions`
 };
 
 /// A window with its path and forces. It does not change while others are read.
@@ -71,12 +73,18 @@ struct JobWindow {
   Toolpath path;
   std::optional<PathForces> forces;
   std::optional<TipPosition> from;  ///< as for a job
+  PathDirections directions{};      ///< of a machine with reversals
 };
+
+/// In which direction each actuator moves first on the path of a program: of a machine with reversals.
+/// `input` has the directions that are known before. Reads `reader` as far as necessary.
+Directions first_directions(const RunInput& input, ProgramReader& reader);
 
 /// Reads the windows of a run, and carries path and forces from one to the next.
 class JobWindows {
  public:
-  JobWindows(const RunInput& input, ProgramReader& reader) : input_(input), reader_(reader) {}
+  JobWindows(const RunInput& input, ProgramReader& reader)
+      : input_(input), reader_(reader), directions_{input.first_directions, {}} {}
 
   /// Reads the next window, which is as long as its forces need; false at the program's end. The memory of
   /// `window` is used again. Throws `InputError` as reader and forces do.
@@ -91,6 +99,7 @@ class JobWindows {
   PathEnd path_end_{};
   ForceTail forces_{};
   std::optional<TipPosition> tip_{};
+  DirectionsEnd directions_{};
 };
 
 /// Functions that are called with the windows of a run, each by one thread at a time.

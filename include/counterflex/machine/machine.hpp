@@ -109,6 +109,9 @@ struct Actuator {
   int program_axis = 0;  ///< 1 to 6: the external axis E1 to E6 of the program; 0: none
   ShownValue shown{};
   std::optional<ErrorTable> errors{};
+  /// Lost motion, not negative (m or rad): the joint lags behind its value by half of it, against the
+  /// direction in which it moves.
+  std::optional<double> reversal{};
 };
 
 /// A joint that moves freely, or against `stiffness` (N/m or N m/rad) with energy 1/2 k (q - rest)^2.
@@ -214,6 +217,10 @@ enum class ControlKinematics {
   factory,    ///< lengths that the maker calibrated: the file's errors are what these leave
 };
 
+/// What a control may correct by itself.
+enum class Corrected : std::uint8_t { error_tables, reversal, gravity };
+inline constexpr std::array<std::string_view, 3> corrected_names = {"error_tables", "reversal", "gravity"};
+
 /// The source of a number.
 enum class NumberSource { measured, catalogue, prior };
 
@@ -248,6 +255,8 @@ struct Machine {
   std::map<long, Tool> tools;  ///< by number
   ControlSettings control;
   ControlKinematics kinematics = ControlKinematics::unstated;
+  /// What the control corrects by itself. The rest of the machine is without it.
+  std::vector<Corrected> already_corrects{};
   /// Stated: shown values of the actuators were compared with the pendant. Only then do the joint values of a
   /// program define places.
   bool joint_values_as_shown = false;
@@ -266,7 +275,7 @@ bool controls(const Machine& machine, Component component);
 /// Whether it lists all six.
 bool controls_pose(const Machine& machine);
 
-/// The machine without its assembly errors and error tables.
+/// The machine without its assembly errors, error tables and reversal errors.
 Machine perfect(const Machine& machine);
 
 /// kg, masses in branches of groups included.

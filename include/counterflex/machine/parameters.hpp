@@ -1,13 +1,15 @@
 #pragma once
 /// The parameters of a machine: the numbers that measurements can identify, each with a name. They are the
-/// components of assembly errors, compliances and masses.
+/// components of assembly errors, compliances, masses, and the reversals of actuators.
 ///
 /// Names. In a machine of one chain "mount.x_mm", else "CHAIN.mount.x_mm"; inside a branch of a group the
 /// branch's name is in front, too. "mount" is an error slot (x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg: the
 /// rotation vector), a spring, or the `name` of a compliance or mass; without one "compliance2", "mass1",
 /// counted from 1 in the chain or branch. A spring with a diagonal stiffness has "foot.x_m_per_N" to
 /// "foot.rz_rad_per_Nm" for its finite compliances; another has one, "foot.compliance_m_per_N": the mean of
-/// the first three on the diagonal, which scales the whole matrix.
+/// the first three on the diagonal, which scales the whole matrix. A reversal is "X.reversal_um",
+/// "A1.reversal_mdeg" or "CHAIN.reversal_um": the axis or the chain as `actuator_names` has it; without such
+/// a name "J3.reversal_um".
 #include <string>
 #include <vector>
 
@@ -15,7 +17,7 @@
 
 namespace counterflex {
 
-enum class ParameterKind { position, orientation, compliance, mass };
+enum class ParameterKind { position, orientation, compliance, mass, reversal };
 
 struct Parameter {
   std::string name;

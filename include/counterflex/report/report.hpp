@@ -195,6 +195,12 @@ struct UsedTool {
   std::string stiffness;                  ///< where that is from, in words
 };
 
+/// An axis with lost motion reverses in a move.
+struct ReversalRow {
+  int line = 0;
+  std::string axis;
+};
+
 /// Lengths as the people of a program and a machine have them.
 struct ShownUnits {
   LengthUnit program = LengthUnit::millimetres;
@@ -235,7 +241,8 @@ struct RunReport {
   std::optional<TextSize> text_after;
   ControlFacts control;
   ForceSummary forces;
-  std::optional<PathLoads> loads{};  ///< where they were solved, see `add_loads`
+  std::optional<Capped<ReversalRow>> reversals{};  ///< where axes have lost motion
+  std::optional<PathLoads> loads{};                ///< where they were solved, see `add_loads`
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
@@ -243,8 +250,9 @@ struct RunReport {
   std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
   std::string tools_assumed;    ///< their stiffness in words; empty without any
   std::string gravity;          ///< which weights were taken to act, in words; empty without any
-  std::vector<std::string> not_modelled;  ///< what else moves the tip of a real machine, one phrase each
-  SanityChecks sanity{};                  ///< filled by the caller, who knows the machine's model
+  std::vector<std::string> already_corrected;  ///< by the control, as the machine file states
+  std::vector<std::string> not_modelled;       ///< what else moves the tip of a real machine, one phrase each
+  SanityChecks sanity{};                       ///< filled by the caller, who knows the machine's model
   std::optional<Failure> failure;
   std::optional<SourcesAtWorst> failure_place{};  ///< where the original program is off most in its line
 };

@@ -180,6 +180,7 @@ class RunTally {
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
   std::size_t corrected_moves() const { return corrected_moves_; }
   const OtherMoves& other_moves() const { return other_moves_; }
+  const std::optional<Capped<ReversalRow>>& reversals() const { return reversals_; }
   std::size_t inserted_blocks() const { return inserted_blocks_; }
   std::size_t text_bytes() const { return text_bytes_; }  ///< of compensated text
 
@@ -191,6 +192,7 @@ class RunTally {
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_travel(const Waypoint& w, const Job& window);
+  void add_reversals(const Job& window);
   MoveFacts facts_of(const Job& window, const Segment& segment) const;
 
   double min_block_ms_;
@@ -206,6 +208,7 @@ class RunTally {
   Capped<Remark> force_notes_;
   Capped<LeftAlone> left_alone_;
   OtherMoves other_moves_;
+  std::optional<Capped<ReversalRow>> reversals_;
   std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
   std::optional<LineLengths> lines_;
   std::optional<ShortBlocks> short_blocks_;

@@ -5,6 +5,7 @@
 #include <memory>
 #include <span>
 
+#include "counterflex/statics/directions.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex {
@@ -18,10 +19,11 @@ struct TurnedPlace {
   TurnedPlace(const Position& at, const Vector3& turned = Vector3::Zero()) : p(at), turn(turned) {}
 };
 
-/// A place of the tip, and the wrench there (N, N m; axes of M).
+/// A place of the tip, the wrench there (N, N m; axes of M), and how actuators come to it.
 struct BatchRequest {
   TurnedPlace at;
   Vector6 F = Vector6::Zero();
+  Directions directions{};
 };
 
 /// Forward: where the tip is when the place is commanded. Target: what has to be commanded for the tip to be
@@ -43,6 +45,12 @@ struct BatchAnswer {
 struct NominalAnswer {
   bool solved = false;
   Pose X_MT;
+};
+
+/// The actuator values of the nominal tip at a position (m, rad; rotary ones but for full turns).
+struct ActuatorsAnswer {
+  bool solved = false;
+  Eigen::VectorXd rho;
 };
 
 /// A short straight way, and the load along it: between `F0` and `F1` it changes evenly, but for the
@@ -108,6 +116,9 @@ class BatchSolver {
 
   /// `answers` is as long as `places`.
   void nominal_tips(std::span<const TurnedPlace> places, std::span<NominalAnswer> answers);
+
+  /// The same for the actuators there.
+  void nominal_actuators(std::span<const TurnedPlace> places, std::span<ActuatorsAnswer> answers);
 
   /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured
   /// remainder. EQUATIONS.md, section 11.

@@ -74,8 +74,9 @@ struct Mechanism {
   std::string name;
   std::vector<Series> chains;
   std::vector<Component> controlled;
-  std::vector<Travel> travel;  ///< by actuator
-  ShownActuators shown;        ///< of the actuator values
+  std::vector<Travel> travel;    ///< by actuator
+  ShownActuators shown;          ///< of the actuator values
+  std::vector<double> reversal;  ///< lost motion by actuator (m, rad); empty: none has any
   Pose X_PT;
   /// Reference point in the frame where the chains end: not zero with a tool that bends.
   Vector3 p_EP = Vector3::Zero();

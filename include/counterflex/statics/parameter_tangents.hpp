@@ -23,7 +23,7 @@ class ParameterTangents {
 
   /// Twist of the tip (m, rad; axes of M) by parameter (SI): 6 x as many as are varied. `configuration` is an
   /// equilibrium of the model under `load`, all of whose errors, preloads and weights act; `work` is one of
-  /// `work()`.
+  /// `work()`. Of a reversal: for motion in the positive direction; the other way it has the other sign.
   Eigen::Matrix<double, 6, Eigen::Dynamic> of_tip(const Configuration& configuration, const Load& load,
                                                   StaticsWork& work) const;
 

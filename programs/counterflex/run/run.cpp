@@ -168,8 +168,9 @@ RunReport without_warnings(RunReport report) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model, work.frames, ignored,      force_input.source,
-          options,       read,        &tool_models, starts ? &*starts : nullptr};
+  return {machine.model,   work.frames, ignored,      force_input.source,
+          options,         read,        &tool_models, starts ? &*starts : nullptr,
+          first_directions};
 }
 
 RunContext Run::context() const {
@@ -218,6 +219,10 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
+  if (has_reversals(run->machine.model)) {
+    ProgramReader reader(run->file.bytes, run->program.file, run->read);
+    run->first_directions = first_directions(run->input(), reader);
+  }
   run->sanity = program_sanity({run->machine, run->tool_models, run->tools, run->work, run->program});
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);

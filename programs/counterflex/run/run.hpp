@@ -30,8 +30,9 @@ struct Run {
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
   std::optional<StartTables> starts{};
-  LoadPlaces load_places{};  ///< of the path, if loads are requested
-  SanityChecks sanity{};     ///< checks before the run
+  Directions first_directions{};  ///< in which actuators with lost motion move first
+  LoadPlaces load_places{};       ///< of the path, if loads are requested
+  SanityChecks sanity{};          ///< checks before the run
 
   RunInput input() const;
   RunContext context() const;

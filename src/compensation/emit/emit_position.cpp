@@ -18,7 +18,9 @@ constexpr std::size_t look_ahead = 64;  // blocks
 // without one.
 std::optional<Emitter::PositionCorrection> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
-  const TargetRequest request{&model, wanted, Vector6::Zero(), orientation_of(job_, move)};
+  const auto index = static_cast<std::size_t>(&move - job_.program.moves.data());
+  const TargetRequest request{&model, wanted, Vector6::Zero(), orientation_of(job_, move),
+                              directions_at(job_, index, 1, Side::before)};
   TargetAnswer answer;
   solver_.targets({&request, 1}, {&answer, 1});
   if (answer.status != Status::converged) {

@@ -164,6 +164,7 @@ bool refine(const Job& job, PlaceSolver& solver, const std::vector<std::size_t>&
     ForwardRequest& request = requests.emplace_back(
         ForwardRequest{&model, piece.commanded.end, job.forces.at(piece.segment, piece.u1, Side::before)});
     if (piece.turn) request.R = piece.turn->end;
+    request.directions = directions_at(job, job.path.segments[piece.segment].move, piece.u1, Side::before);
   }
   solver.forwards(requests, answers);
   const auto fails = [](const ForwardAnswer& answer) { return answer.status != Status::converged; };

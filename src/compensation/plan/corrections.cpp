@@ -9,16 +9,18 @@ Answer Corrections::ask(std::size_t segment, double u, Side side) {
   const bool joins = u == 0 && !requests_.empty() && segments_.back() + 1 == segment &&
                      job_.forces.follows(segment) && requests_.back().p_MT == on.wanted.start &&
                      requests_.back().R_MT == orientation_at(on, 0) &&
-                     requests_.back().model == &model_of(job_, on);
-  return joins ? requests_.size() - 1 : ask(segment, u, force_at(segment, u, side));
+                     requests_.back().model == &model_of(job_, on) &&
+                     requests_.back().directions == directions_at(job_, on.move, 0, side);
+  return joins ? requests_.size() - 1 : ask(segment, u, force_at(segment, u, side), side);
 }
 
-Answer Corrections::ask(std::size_t segment, double u, const Vector6& F) {
+Answer Corrections::ask(std::size_t segment, double u, const Vector6& F, Side side) {
   const Segment& on = job_.path.segments[segment];
-  const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F, orientation_at(on, u)};
+  const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F, orientation_at(on, u),
+                              directions_at(job_, on.move, u, side)};
   const bool same = !requests_.empty() && requests_.back().model == request.model &&
                     requests_.back().p_MT == request.p_MT && requests_.back().R_MT == request.R_MT &&
-                    requests_.back().F == F;
+                    requests_.back().F == F && requests_.back().directions == request.directions;
   if (same) return requests_.size() - 1;
   requests_.push_back(request);
   segments_.push_back(segment);

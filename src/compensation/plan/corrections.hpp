@@ -19,9 +19,9 @@ class Corrections {
   Corrections(const Job& job, PlaceSolver& solver) : job_(job), lever_(lever(job.options)), solver_(solver) {}
 
   /// Requests the correction at a fraction of a segment. A request is shared with the last one if that has
-  /// the same place and force.
+  /// the same place, force and directions.
   Answer ask(std::size_t segment, double u, Side side);
-  Answer ask(std::size_t segment, double u, const Vector6& F);
+  Answer ask(std::size_t segment, double u, const Vector6& F, Side side);
 
   /// The force at a fraction of a segment.
   Vector6 force_at(std::size_t segment, double u, Side side) {

@@ -44,7 +44,7 @@ Interval open_interval(Corrections& corrections, std::size_t segment, double u0,
   i.at[0] = a;
   for (const std::size_t k : {1u, 2u, 3u})
     if (may_wave || k == 2) i.at[k] = corrections.ask(segment, i.u[k], Side::after);
-  i.at[4] = corrections.ask(segment, u1, F);
+  i.at[4] = corrections.ask(segment, u1, F, Side::before);
   return i;
 }
 

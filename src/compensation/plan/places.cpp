@@ -38,7 +38,10 @@ void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::v
   const Segment& segment = job.path.segments[index];
   fractions.clear();
   if (segment.cutting) {
+    std::vector<double> reversals;
+    if (job.directions != nullptr) job.directions->inside(segment.move, reversals);
     job.forces.breaks(index, cursor, fractions);
+    fractions.insert(fractions.end(), reversals.begin(), reversals.end());
     const int steps = steps_along(job, segment);
     for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
     std::sort(fractions.begin(), fractions.end());

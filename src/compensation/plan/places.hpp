@@ -19,9 +19,9 @@ int steps_of_tables(const Job& job, const Segment& segment);
 int steps_along(const Job& job, const Segment& segment);
 
 /// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
-/// feed move has places at the corners of the force, and in equal steps of at most 5 mm (a 64th of a longer
-/// move), of at most one position of the tables of errors of motion and, around an arc, of at most 22.5
-/// degrees: an arc of many turns has 16 places or more on each of them.
+/// feed move has places at the corners of the force, where joints reverse, and in equal steps of at most 5 mm
+/// (a 64th of a longer move), of at most one position of the tables of errors of motion and, around an arc,
+/// of at most 22.5 degrees: an arc of many turns has 16 places or more on each of them.
 void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
 
 /// A part of a segment between two fractions, and the forces at its ends, between which it may change evenly.

@@ -33,24 +33,34 @@ struct Requests {
   std::vector<Interval> intervals;
 };
 
-// Where sampling begins again: at corners of the force, and often enough around an arc and across the
-// positions of tables.
+// Where sampling begins again: at corners of the force, where a joint reverses, often enough around an arc
+// and across the positions of tables.
 void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& limits) {
   job.forces.breaks(index, cursor, limits);
   const Segment& segment = job.path.segments[index];
   const auto& arc = segment.wanted.arc;
   const int waves = arc ? static_cast<int>(std::ceil(arc->sweep / sampled_angle)) : 1;
   const int parts = std::max(waves, steps_of_tables(job, segment));
-  if (parts == 1) return;
+  std::vector<double> reversals;
+  if (job.directions != nullptr) job.directions->inside(segment.move, reversals);
+  if (parts == 1 && reversals.empty()) return;
+  limits.insert(limits.end(), reversals.begin(), reversals.end());
   for (int k = 1; k < parts; ++k) limits.push_back(static_cast<double>(k) / parts);
   std::sort(limits.begin(), limits.end());
   limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
+}
+
+bool reverses_inside(const Job& job, const Segment& segment) {
+  std::vector<double> fractions;
+  if (job.directions != nullptr) job.directions->inside(segment.move, fractions);
+  return !fractions.empty();
 }
 
 // Whether the bound of its cell lets a line go straight between its ends. A step of the force divides it.
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
   const Segment& segment = job.path.segments[task.segment];
   if (segment.wanted.arc || segment.turn || (job.options.blend == 0 && !task.limits.empty())) return false;
+  if (reverses_inside(job, segment)) return false;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
   const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
   const LineBend bend = corrections.solver().bend_along(
@@ -101,7 +111,7 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index) {
     if (task.kind == Kind::cut)
       ask_inside(job, requests, task, F1);
     else
-      task.end = corrections.ask(index, 1, F1);
+      task.end = corrections.ask(index, 1, F1, Side::before);
   }
   requests.tasks.push_back(std::move(task));
 }

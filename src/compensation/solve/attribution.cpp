@@ -31,7 +31,8 @@ void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& st
                         .target = target.p,
                         .F = at.places[i].F,
                         .stage = stage,
-                        .R = target.R});
+                        .R = target.R,
+                        .directions = at.places[i].directions});
   }
   std::vector<ForwardAnswer> answers(requests.size());
   at.solver.forwards(requests, answers);

@@ -19,6 +19,7 @@ struct ForwardPlace {
   Target original, emitted;
   Vector6 F = Vector6::Zero();
   Pose wanted;  ///< X_MT
+  Directions directions{};
 };
 
 /// Fills `before` at the ends of pieces and at places; a status that is not converged goes to the waypoint.

@@ -60,26 +60,28 @@ Vector3 bottom_of(const Move& move) {
 
 namespace {
 
-Piece piece_of_end(const Move& original, const Vector3& commanded, const Vector3& wanted) {
+Piece piece_of_end(const Job& job, const Move& original, const Vector3& commanded, const Vector3& wanted) {
+  const auto move = static_cast<std::size_t>(&original - job.program.moves.data());
   return {.segment = no_segment,
           .line = original.line,
           .frame = original.frame,
           .commanded = {commanded, commanded, {}},
           .wanted = wanted,
           .end_only = true,
-          .tool = original.tool};
+          .tool = original.tool,
+          .directions = directions_at(job, move, 1, Side::before)};
 }
 
 }  // namespace
 
 Piece piece_of_hole(const Job& job, const Move& original, const Move& found) {
   const WorkFrame& frame = job.path.frames[original.frame];
-  return piece_of_end(original, frame.X_MW * (bottom_of(found) * mm),
+  return piece_of_end(job, original, frame.X_MW * (bottom_of(found) * mm),
                       wanted_frame(frame) * (bottom_of(original) * mm));
 }
 
 Piece piece_of_position(const Job& job, const Move& original, const Move& found) {
-  Piece piece = piece_of_end(original, target_of(job, found), wanted_of(job, original));
+  Piece piece = piece_of_end(job, original, target_of(job, found), wanted_of(job, original));
   if (const auto R = orientation_of(job, found)) piece.turn = Turn{*R, *R, {}};
   piece.R_wanted = orientation_of(job, original);
   return piece;

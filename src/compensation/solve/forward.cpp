@@ -43,6 +43,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   w.status = all.status(s);
   w.iterations = all.answers[s].iterations;
   w.rho = all.answers[s].rho;
+  w.directions = all.requests[s].directions;
   if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
   w.correction.head<3>() = all.requests[s].target - original_command(job, frame_of(sampled), w.p_MT);
   if (w.R_MT && all.requests[s].R) w.correction.tail<3>() = rotation_between(*all.requests[s].R, *w.R_MT);
@@ -76,7 +77,8 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
                       {original, all.places[s].R_MT},
                       {request.target, request.R},
                       request.F,
-                      all.wanted[s].X_MT});
+                      all.wanted[s].X_MT,
+                      request.directions});
   }
   const auto solved = [&] {
     const auto fails = [](const Waypoint& w) { return w.status != Status::converged; };

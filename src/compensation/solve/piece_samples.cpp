@@ -57,6 +57,12 @@ Vector6 force_at(Slice& slice, const PieceSample& sample) {
   return slice.job.forces.at(slice.pieces[sample.piece].piece->segment, sample.u, sample.side, slice.cursor);
 }
 
+Directions directions_of(const Slice& slice, const PieceSample& sample) {
+  const SampledPiece& sampled = slice.pieces[sample.piece];
+  if (sampled.segment == nullptr) return sampled.piece->directions;
+  return directions_at(slice.job, sampled.segment->move, sample.u, sample.side);
+}
+
 std::size_t add_sample(Slice& slice, const PieceSample& sample, const Vector6& F) {
   const SampledPiece& sampled = slice.pieces[sample.piece];
   slice.samples.push_back(sample);
@@ -64,6 +70,7 @@ std::size_t add_sample(Slice& slice, const PieceSample& sample, const Vector6& F
   ForwardRequest& request = slice.requests.emplace_back(
       ForwardRequest{sampled.model, point_at(sampled.piece->commanded, sample.v), F, {}, true});
   if (const auto& turn = sampled.piece->turn) request.R = orientation_at(*turn, sample.v);
+  request.directions = directions_of(slice, sample);
   return slice.samples.size() - 1;
 }
 
@@ -85,6 +92,9 @@ bool is_where_the_last_ended(Slice& slice, const SampledPiece& sampled) {
   if (last.model != sampled.model || slice.places.back().p_MT != start.p_MT ||
       slice.places.back().R_MT != start.R_MT)
     return false;
+  if (!(slice.requests.back().directions ==
+        directions_at(slice.job, sampled.segment->move, piece.u0, Side::after)))
+    return false;
   const bool follows = before.segment + 1 == piece.segment && before.u1 == 1 && piece.u0 == 0;
   if (follows && slice.job.forces.follows(piece.segment)) return true;
   return slice.requests.back().F == slice.job.forces.at(piece.segment, piece.u0, Side::after, slice.cursor);
@@ -104,12 +114,13 @@ std::size_t add_start(Slice& slice, std::size_t t) {
                             .side = Side::after});
 }
 
-// The other side of a step of the force; the same sample where there is no step.
+// The other side of a step of the force, or of a reversal; the same sample without either.
 std::size_t add_behind_step(Slice& slice, std::size_t before) {
-  if (slice.job.options.blend > 0) return before;
   PieceSample behind = slice.samples[before];
   behind.place = false;
   behind.side = Side::after;
+  if (!(directions_of(slice, behind) == slice.requests[before].directions)) return add_sample(slice, behind);
+  if (slice.job.options.blend > 0) return before;
   const std::size_t segment = slice.pieces[behind.piece].piece->segment;
   if (slice.job.forces.at(segment, behind.u, Side::after, slice.cursor) == slice.requests[before].F)
     return before;

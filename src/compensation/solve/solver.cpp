@@ -26,6 +26,21 @@ Status travel_status(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
   return within_travel(mechanism, rho) ? Status::converged : Status::outside_travel;
 }
 
+// The nominal configuration of the joints, which lag behind the commanded values.
+NominalResult behind(const Model& model, const NominalResult& commanded, const Directions& directions,
+                     double errors = 1) {
+  const Eigen::VectorXd lag = errors * lag_of(model.mechanism, directions);
+  if (lag.isZero(0)) return commanded;
+  return nominal_forward(model, commanded.configuration,
+                         actuator_values(model.mechanism, commanded.configuration) + lag);
+}
+
+// Actuator values to command for joint values.
+Eigen::VectorXd commanded_for(const Mechanism& mechanism, const Eigen::VectorXd& joints,
+                              const Directions& directions) {
+  return mechanism.reversal.empty() ? joints : Eigen::VectorXd(joints - lag_of(mechanism, directions));
+}
+
 // The first requests that have the same model and stage.
 template <typename Request>
 std::size_t length_of_run(std::span<const Request> requests) {
@@ -111,7 +126,7 @@ void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<Tar
     if (m.batch && method_ == Method::direct) {
       requests_.clear();
       for (const TargetRequest& request : requests.first(count))
-        requests_.push_back({m.place(request.p_MT, request.R_MT), request.F});
+        requests_.push_back({m.place(request.p_MT, request.R_MT), request.F, request.directions});
       const bool wants_pose = requests.front().R_MT.has_value();
       m.batch->solve(wants_pose ? BatchQuestion::pose : BatchQuestion::target, {}, requests_, answers_);
     }
@@ -137,7 +152,7 @@ void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<F
     if (m.batch) {
       requests_.clear();
       for (const ForwardRequest& request : requests.first(count))
-        requests_.push_back({m.place(request.target, request.R), stage.load * request.F});
+        requests_.push_back({m.place(request.target, request.R), stage.load * request.F, request.directions});
       m.batch->solve(BatchQuestion::forward, stage, requests_, answers_);
     }
     for (std::size_t i = 0; i < count; ++i) {
@@ -149,6 +164,29 @@ void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<F
       if (answers[i].status != Status::converged && stop == StopAt::first_failure) return;
     }
   }
+}
+
+std::vector<Eigen::VectorXd> PlaceSolver::actuators(std::span<const TipPosition> positions) {
+  std::vector<Eigen::VectorXd> all;
+  for (std::size_t count = 0; !positions.empty(); positions = positions.subspan(count)) {
+    count = length_of_run(positions);
+    OfModel& m = of(*positions.front().model);
+    actuators_.assign(count, {});
+    places_.clear();
+    for (const TipPosition& at : positions.first(count)) places_.push_back(m.place(at.p_MT, at.R_MT));
+    if (m.batch) m.batch->nominal_actuators(places_, actuators_);
+    for (std::size_t i = 0; i < count; ++i) {
+      if (!actuators_[i].solved) {
+        const NominalResult alone = nominal(m, positions[i]);
+        if (alone.status == Status::converged)
+          actuators_[i].rho = actuator_values(m.model.mechanism, alone.configuration);
+        else
+          actuators_[i].rho.resize(0);
+      }
+      all.push_back(std::move(actuators_[i].rho));
+    }
+  }
+  return all;
 }
 
 NominalResult PlaceSolver::nominal(const TipPosition& at) {
@@ -201,8 +239,10 @@ ForwardAnswer PlaceSolver::forward_alone(OfModel& m, const ForwardRequest& reque
   const NominalResult commanded = nominal(m, {&m.model, request.target, request.R});
   if (commanded.status != Status::converged) return {commanded.status};
   const Mechanism& mechanism = m.model.mechanism;
+  const NominalResult lagging = behind(m.model, commanded, request.directions, request.stage.errors);
+  if (lagging.status != Status::converged) return {lagging.status};
   const Equilibrium solved =
-      solve_forward(m.model, commanded.configuration, {request.F, at_platform_}, request.stage, m.scratch());
+      solve_forward(m.model, lagging.configuration, {request.F, at_platform_}, request.stage, m.scratch());
   ForwardAnswer answer{solved.status, tip(mechanism, solved.configuration), solved.iterations,
                        actuator_values(mechanism, commanded.configuration)};
   if (request.within_travel && answer.status == Status::converged)
@@ -225,7 +265,8 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
           : solve_target(m.model, start.configuration, X_MT, load, {}, m.scratch());
   TargetAnswer answer{solved.status, p_MT, solved.iterations};
   if (solved.status != Status::converged) return answer;
-  const Eigen::VectorXd rho = actuator_values(mechanism, solved.configuration);
+  const Eigen::VectorXd rho =
+      commanded_for(mechanism, actuator_values(mechanism, solved.configuration), request.directions);
   const NominalResult commanded = nominal_forward(m.model, start.configuration, rho);
   answer.status = commanded.status;
   const Pose target = tip(mechanism, commanded.configuration);
@@ -241,7 +282,8 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
 TargetAnswer PlaceSolver::by_outer_iteration(OfModel& m, const TargetRequest& request) {
   TargetAnswer answer{Status::not_converged, request.p_MT};
   for (int i = 0; i < most_outer_iterations; ++i) {
-    const ForwardAnswer reached = forward_alone(m, {&m.model, answer.target, request.F});
+    const ForwardAnswer reached = forward_alone(
+        m, {.model = &m.model, .target = answer.target, .F = request.F, .directions = request.directions});
     answer.status = reached.status;
     answer.iterations += reached.iterations;
     if (reached.status != Status::converged) return answer;
@@ -257,8 +299,12 @@ TargetAnswer PlaceSolver::by_outer_iteration(OfModel& m, const TargetRequest& re
 TargetAnswer PlaceSolver::by_linear_theory(OfModel& m, const TargetRequest& request) {
   const NominalResult start = nominal(m, {&m.model, request.p_MT, request.R_MT});
   if (start.status != Status::converged) return {start.status, request.p_MT};
-  const LinearResult linear =
-      linear_deviation(m.model, start.configuration, {request.F, at_platform_}, {}, m.scratch());
+  const NominalResult lagging = behind(m.model, start, request.directions);
+  if (lagging.status != Status::converged) return {lagging.status, request.p_MT};
+  LinearResult linear =
+      linear_deviation(m.model, lagging.configuration, {request.F, at_platform_}, {}, m.scratch());
+  linear.dt_T +=
+      difference(tip(m.model.mechanism, lagging.configuration), tip(m.model.mechanism, start.configuration));
   if (linear.status != Status::converged) return {linear.status, request.p_MT, 1};
   const Pose X_MT{request.R_MT.value_or(tip(m.model.mechanism, start.configuration).R), request.p_MT};
   const Pose target = linear_target(m.model, X_MT, linear);

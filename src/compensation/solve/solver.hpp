@@ -17,6 +17,7 @@ struct TargetRequest {
   Vector3 p_MT = Vector3::Zero();
   Vector6 F = Vector6::Zero();
   std::optional<Matrix3> R_MT{};
+  Directions directions{};
 };
 
 /// A command that puts the tip where it is wanted.
@@ -37,6 +38,7 @@ struct ForwardRequest {
   Stage stage{};
   bool within_travel = false;  ///< a command outside the travel of an actuator is `outside_travel`
   std::optional<Matrix3> R{};
+  Directions directions{};
 };
 
 /// Where the tip is for a command.
@@ -76,6 +78,10 @@ class PlaceSolver {
   void forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
                 StopAt stop = StopAt::first_failure);
 
+  /// The actuators of the nominal machine at positions (m, rad); rotary ones but for full turns. Empty where
+  /// it does not reach one.
+  std::vector<Eigen::VectorXd> actuators(std::span<const TipPosition> positions);
+
   /// The nominal configuration with the tip at a position. Its controlled orientation is the program's or
   /// else home's.
   NominalResult nominal(const TipPosition& at);
@@ -109,6 +115,7 @@ class PlaceSolver {
   std::vector<BatchAnswer> answers_;
   std::vector<TurnedPlace> places_;
   std::vector<NominalAnswer> nominals_;
+  std::vector<ActuatorsAnswer> actuators_;
 };
 
 }  // namespace counterflex

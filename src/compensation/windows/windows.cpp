@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "compensation/solve/failures.hpp"
+#include "compensation/solve/path_directions.hpp"
 #include "compensation/solve/tool_orientations.hpp"
 #include "compensation/windows/turns.hpp"
 #include "compensation/windows/window_steps.hpp"
@@ -24,6 +25,8 @@ bool JobWindows::next(JobWindow& window) {
   window.from = tip_;
   path_end_ = window.path.end;
   forces_ = window.forces->tail();
+  window.directions = PathDirections{};
+  window.directions = directions_along(job(window), directions_);
   if (window.path.segments.empty()) return true;
   const Segment& last = window.path.segments.back();
   tip_ = TipPosition{&model_of(job(window), last), last.wanted.end, orientation_at(last, 1)};
@@ -39,7 +42,38 @@ Job JobWindows::job(const JobWindow& window) const {
           .read = input_.read,
           .tools = input_.tools,
           .starts = input_.starts,
-          .from = window.from};
+          .from = window.from,
+          .directions = has_reversals(input_.model) ? &window.directions : nullptr};
+}
+
+Directions first_directions(const RunInput& input, ProgramReader& reader) {
+  Directions first = input.first_directions;
+  DirectionsEnd end{first, {}};
+  PathEnd path_end;
+  const std::vector<double>& reversal = input.model.mechanism.reversal;
+  const auto is_known = [&] {
+    for (std::size_t a = 0; a < reversal.size(); ++a)
+      if (reversal[a] > 0 && first.of(a) == 0) return false;
+    return true;
+  };
+  const ForceSource no_forces;
+  while (!is_known() && reader.next()) {
+    ignore_axes(reader.window(), input.ignored);
+    const Toolpath path = build_toolpath(reader.window(), input.frames, path_end);
+    const PathForces forces(no_forces, reader.window(), path, {Matrix3::Identity()});
+    add_first_motions(directions_along({.model = input.model,
+                                        .program = reader.window(),
+                                        .path = path,
+                                        .forces = forces,
+                                        .options = input.options,
+                                        .read = input.read,
+                                        .tools = input.tools,
+                                        .starts = input.starts},
+                                       end),
+                      first);
+    path_end = path.end;
+  }
+  return first;
 }
 
 namespace {

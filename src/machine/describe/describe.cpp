@@ -89,6 +89,13 @@ std::string kinematics_phrase(const Machine& machine) {
              : "computes with catalogue lengths; the errors of assembly are all of the machine";
 }
 
+std::string corrects_phrase(const Machine& machine) {
+  std::string text;
+  for (const Corrected what : machine.already_corrects)
+    text.append(text.empty() ? "" : ", ").append(corrected_names[static_cast<std::size_t>(what)]);
+  return text + ": by the control itself; they are left out";
+}
+
 std::string gravity_phrase(const Machine& machine) {
   const double kg = total_mass(machine);
   if (machine.gravity.g.isZero(0)) return "not given: " + phrase_mass(kg) + " without weight";
@@ -141,6 +148,7 @@ void describe_settings(const Machine& machine, std::string& text) {
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
   if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
+  if (!machine.already_corrects.empty()) line("corrects", corrects_phrase(machine));
   if (machine.joint_values_as_shown)
     line("joints", "joint values of programs are the shown values; stated by the file");
   if (!machine.parameters.empty()) line("numbers", numbers_phrase(machine));

@@ -87,10 +87,14 @@ std::string phrase_shown(const Actuator& actuator) {
 }
 
 std::string phrase_errors(const Actuator& actuator) {
-  const auto& table = actuator.errors;
-  if (!table) return "";
-  return fmt::format("errors of table {} ({})", table->name,
-                     phrase_range(actuator.joint, table->positions.front(), table->positions.back()));
+  std::string text;
+  if (const auto& table = actuator.errors)
+    text = fmt::format("errors of table {} ({})", table->name,
+                       phrase_range(actuator.joint, table->positions.front(), table->positions.back()));
+  if (!actuator.reversal) return text;
+  const bool linear = actuator.joint.kind == JointKind::prismatic;
+  return text + fmt::format("{}reversal {:.9g} {}", text.empty() ? "" : ", ",
+                            tidy(*actuator.reversal / (linear ? um : 1e-3 * deg)), linear ? "um" : "mdeg");
 }
 
 std::string phrase_stiffness(const Joint& joint, double stiffness) {

@@ -25,7 +25,7 @@ std::string phrase_range(const Joint& joint, double min, double max);
 /// `shown = -q + 90 deg + 1 J2`, where q is the joint's value; empty if the control shows q.
 std::string phrase_shown(const Actuator& actuator);
 
-/// `errors of table x (0 to 500 mm)`; empty if the actuator has none.
+/// `errors of table x (0 to 500 mm), reversal 12 um`; empty if the actuator has none.
 std::string phrase_errors(const Actuator& actuator);
 
 /// `2.5e+06 N m/rad`.

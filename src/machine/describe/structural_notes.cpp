@@ -104,7 +104,8 @@ void note_groups(const Machine& machine, Notes& notes) {
 void note_masses(const Machine& machine, Notes& notes) {
   const double kg = total_mass(machine);
   const bool pulls = !machine.gravity.g.isZero(0);
-  if (kg > 0 && !pulls)
+  const bool left_out = std::ranges::count(machine.already_corrects, Corrected::gravity) > 0;
+  if (kg > 0 && !pulls && !left_out)
     notes.push_back(fmt::format("masses of {} but no gravity_m_s2: there is no weight", phrase_mass(kg)));
   if (pulls && kg == 0) notes.push_back("gravity_m_s2 but no masses: there is no weight");
 }
@@ -145,7 +146,8 @@ bool has_errors(const Machine& machine) {
   bool any = false;
   for_each<AssemblyError>(
       machine, [&](const Chain&, const AssemblyError& error) { any = any || !is_identity(error.X); });
-  for_each<Actuator>(machine, [&](const Chain&, const Actuator& a) { any = any || a.errors; });
+  for_each<Actuator>(
+      machine, [&](const Chain&, const Actuator& a) { any = any || a.errors || a.reversal.value_or(0) > 0; });
   return any;
 }
 

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <array>
+
 #include "counterflex/geometry/types.hpp"
 #include "machine/read/read_spring.hpp"
 
@@ -14,12 +16,22 @@ struct JointKeys {
   std::string_view name;
   double unit;
   std::string_view min, max, home, preload, stiffness, compliance;
+  std::array<std::string_view, 2> reversal;  ///< of which each has its unit in `reversal_units`
+  std::array<double, 2> reversal_units;
   std::string_view stiffness_per_arcmin{};  ///< of rotary joints
 };
 
-constexpr JointKeys prismatic = {
-    JointKind::prismatic, "prismatic",         mm, "min_mm", "max_mm", "home_mm", "preload_mm",
-    "stiffness_N_per_m",  "compliance_m_per_N"};
+constexpr JointKeys prismatic = {JointKind::prismatic,
+                                 "prismatic",
+                                 mm,
+                                 "min_mm",
+                                 "max_mm",
+                                 "home_mm",
+                                 "preload_mm",
+                                 "stiffness_N_per_m",
+                                 "compliance_m_per_N",
+                                 {"reversal_um", "reversal_mm"},
+                                 {um, mm}};
 constexpr JointKeys revolute = {JointKind::revolute,
                                 "revolute",
                                 deg,
@@ -29,6 +41,8 @@ constexpr JointKeys revolute = {JointKind::revolute,
                                 "preload_deg",
                                 "stiffness_Nm_per_rad",
                                 "compliance_rad_per_Nm",
+                                {"reversal_mdeg", "reversal_arcsec"},
+                                {1e-3 * deg, deg / 3600},
                                 "stiffness_Nm_per_arcmin"};
 
 constexpr double per_arcmin = 10800 / pi;  // 1 N m/arcmin in N m/rad
@@ -97,10 +111,16 @@ void read_travel(WithTravel& joint, const toml::table& table, const JointKeys& k
                                        joint.max / keys.unit, keys.min, joint.min / keys.unit, origin));
 }
 
-void refuse_error_table(const toml::table& table, const Source& source) {
-  if (table.contains("error_table"))
-    source.fail(key_of(table, "error_table"),
-                "error_table is not allowed with program_axis: the axis does not move");
+void read_reversal(const toml::table& table, const JointKeys& keys, std::string_view owner,
+                   const Reading& reading, Actuator& actuator) {
+  const std::string_view form = one_of(table, {keys.reversal[0], keys.reversal[1]}, owner, reading.source);
+  for (const std::string_view key : {form, std::string_view("error_table")})
+    if (actuator.program_axis > 0 && table.contains(key))
+      reading.source.fail(key_of(table, key),
+                          fmt::format("{} is not allowed with program_axis: the axis does not move", key));
+  if (form.empty()) return;
+  const double unit = keys.reversal_units[form == keys.reversal[0] ? 0 : 1];
+  actuator.reversal = as_not_negative(*table.get(form), {form}, reading) * unit;
 }
 
 void read_preload(Passive& passive, const toml::table& table, const JointKeys& keys, std::string_view owner,
@@ -125,6 +145,7 @@ Actuator read_actuator(const toml::table& table, const Reading& reading, Actuato
   const std::string owner = fmt::format("a {} actuator", keys.name);
   std::vector<std::string_view> allowed = {"actuator", "axis",        keys.min, keys.max,
                                            keys.home,  "error_table", "mass"};
+  allowed.insert(allowed.end(), keys.reversal.begin(), keys.reversal.end());
   for (const std::string_view key : shown_keys(keys.kind)) allowed.push_back(key);
   check_keys(table, allowed, owner, reading.source);
   Actuator actuator;
@@ -132,7 +153,7 @@ Actuator read_actuator(const toml::table& table, const Reading& reading, Actuato
   read_travel(actuator, table, keys, reading);
   actuator.home = joint_value(table, keys.home, keys, 0, reading);
   read_shown(table, reading, before, actuator);
-  if (actuator.program_axis > 0) refuse_error_table(table, reading.source);
+  read_reversal(table, keys, owner, reading, actuator);
   return actuator;
 }
 

@@ -4,6 +4,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
+#include "machine/corrected.hpp"
 #include "machine/read/read_chains.hpp"
 #include "machine/read/read_load_limits.hpp"
 #include "machine/read/read_parameters.hpp"
@@ -78,6 +79,7 @@ Machine read_machine(std::string_view text, const std::string& file) {
   if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);
   check_home(document, source, machine);
+  leave_out_corrected(machine);
   return machine;
 }
 

@@ -38,8 +38,10 @@ std::optional<double> read_sigma(const toml::table& table, const Parameter& para
 double read_value(const toml::node& node, const Parameter& parameter, const Source& source) {
   const bool is_positive =
       parameter.kind == ParameterKind::compliance || parameter.kind == ParameterKind::mass;
-  const double value =
-      is_positive ? as_positive(node, {"value"}, {source}) : as_number(node, {"value"}, {source});
+  const double value = is_positive ? as_positive(node, {"value"}, {source})
+                       : parameter.kind == ParameterKind::reversal
+                           ? as_not_negative(node, {"value"}, {source})
+                           : as_number(node, {"value"}, {source});
   return value * parameter.unit;
 }
 

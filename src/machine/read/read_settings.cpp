@@ -170,11 +170,28 @@ void read_program(const toml::table& document, const Source& source, Machine& ma
         std::string(as_choice(*centres, "arc_centres", {"incremental", "absolute"}, source)) == "absolute";
 }
 
+namespace {
+
+std::vector<Corrected> read_already_corrects(const toml::node& node, const Source& source) {
+  const std::vector<std::string_view> allowed(corrected_names.begin(), corrected_names.end());
+  std::vector<Corrected> corrects;
+  for (const toml::node& entry : as_array(node, "already_corrects", source)) {
+    const std::string name = as_choice(entry, "already_corrects", allowed, source);
+    const auto which = static_cast<Corrected>(std::ranges::find(allowed, name) - allowed.begin());
+    if (std::ranges::find(corrects, which) != corrects.end())
+      source.fail(entry, fmt::format("already_corrects names \"{}\" twice", name));
+    corrects.push_back(which);
+  }
+  return corrects;
+}
+
+}  // namespace
+
 void read_controller(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("controller");
   if (node == nullptr) return;
   const toml::table& table = as_table(*node, "controller", source);
-  check_keys(table, {"kinematics", "joint_values"}, "[controller]", source);
+  check_keys(table, {"kinematics", "joint_values", "already_corrects"}, "[controller]", source);
   if (const toml::node* joint_values = table.get("joint_values"))
     machine.joint_values_as_shown =
         as_choice(*joint_values, "joint_values", {"as_shown"}, source) == "as_shown";
@@ -182,6 +199,8 @@ void read_controller(const toml::table& document, const Source& source, Machine&
     machine.kinematics = as_choice(*kinematics, "kinematics", {"catalogue", "factory"}, source) == "factory"
                              ? ControlKinematics::factory
                              : ControlKinematics::catalogue;
+  if (const toml::node* corrects = table.get("already_corrects"))
+    machine.already_corrects = read_already_corrects(*corrects, source);
 }
 
 void read_limits(const toml::table& document, const Source& source, Machine& machine) {

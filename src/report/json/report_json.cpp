@@ -328,8 +328,15 @@ Json assumptions_json(const RunReport& report) {
   if (!report.unmeasured.empty()) json["unmeasured"] = report.unmeasured;
   if (!report.tools.empty()) json["tools"] = report.tools_assumed;
   if (!report.gravity.empty()) json["gravity"] = report.gravity;
+  if (!report.already_corrected.empty()) json["already_corrected"] = report.already_corrected;
   json["not_modelled"] = report.not_modelled;
   return json;
+}
+
+Json reversals_json(const Capped<ReversalRow>& reversals) {
+  Json rows = Json::array();
+  for (const ReversalRow& row : reversals.rows) rows.push_back({{"line", row.line}, {"axis", row.axis}});
+  return {{"count", reversals.count}, {"rows", std::move(rows)}};
 }
 
 Json sanity_json(const SanityChecks& checks) {
@@ -431,6 +438,7 @@ std::string to_json(const RunReport& report) {
                    {"operations", operations_json(report.operations)},
                    {"units", units_json(report.units)}};
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
+  if (report.reversals) document["reversals"] = reversals_json(*report.reversals);
   return dump(document);
 }
 

@@ -73,6 +73,16 @@ void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
 void RunTally::add_window(const Job& window) {
   feed_.add_window(window);
   add_forces(window.forces);
+  add_reversals(window);
+}
+
+void RunTally::add_reversals(const Job& window) {
+  if (window.directions == nullptr) return;
+  if (!reversals_) reversals_.emplace();
+  for (const DirectionChange& change : window.directions->changes())
+    if (change.is_reversal)
+      list(*reversals_, ReversalRow{window.program.moves[change.move].line,
+                                    window.model.mechanism.travel[change.actuator].name});
 }
 
 FeedMoves RunTally::feed_moves() const {

@@ -151,16 +151,31 @@ const char* own_corrections_of_arm(const Machine& machine) {
 
 }  // namespace
 
+namespace {
+
+bool has_lost_motion(const Machine& machine) {
+  return std::ranges::any_of(actuators(machine),
+                             [](const Actuator& a) { return a.reversal.value_or(0) > 0; });
+}
+
+std::string backlash(const Machine& machine) {
+  if (has_lost_motion(machine))
+    return "friction: what it does beside the reversal values of the machine file";
+  return turns_joints(machine)
+             ? "backlash and friction: the tip differs where a joint reverses, on arms by some tenths of a mm"
+             : "backlash and friction: the tip differs where an axis reverses";
+}
+
+}  // namespace
+
 std::vector<std::string> not_modelled(const Machine& machine) {
-  const bool arm = turns_joints(machine);
-  return {
-      arm ? "backlash and friction: the tip differs where a joint reverses, on arms by some tenths of a mm"
-          : "backlash and friction: the tip differs where an axis reverses",
-      "heat: growth of spindle and frame, from the first part of the day to the last",
-      "part and fixture: their bending and clamping", "dynamics: following error, rounded corners, chatter",
-      arm ? own_corrections_of_arm(machine)
-          : "the control's own corrections: pitch, straightness and volumetric tables; errors that they "
-            "remove must not be in the machine file"};
+  return {backlash(machine), "heat: growth of spindle and frame, from the first part of the day to the last",
+          "part and fixture: their bending and clamping",
+          "dynamics: following error, rounded corners, chatter",
+          turns_joints(machine)
+              ? own_corrections_of_arm(machine)
+              : "the control's own corrections: pitch, straightness and volumetric tables; errors that they "
+                "remove must not be in the machine file"};
 }
 
 std::string gravity_in_words(const Machine& machine) {

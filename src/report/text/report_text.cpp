@@ -231,11 +231,19 @@ std::string not_modelled_text(const RunReport& report) {
   return text.empty() ? "" : wrapped("  ", text + ".", 2);
 }
 
+std::string already_corrected_text(const RunReport& report) {
+  if (report.already_corrected.empty()) return "";
+  std::string names;
+  for (const std::string& name : report.already_corrected) names += (names.empty() ? "" : ", ") + name;
+  return wrapped("  ", fmt::format("The control corrects {} by itself; the model is without it.", names), 2);
+}
+
 std::string assumptions_text(const RunReport& report, const Ink& ink) {
   return line_break() + ink.bold("Assumptions") + "\n" + wrapped("  ", report.work, 2) +
          (report.datum.empty() ? "" : wrapped("  ", report.datum, 2)) +
          (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2)) +
-         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) + not_modelled_text(report);
+         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) + already_corrected_text(report) +
+         not_modelled_text(report);
 }
 
 }  // namespace

@@ -92,13 +92,16 @@ std::string moves_line(const RunReport& report) {
   if (report.failure && !report.text_after) return "";
   if (report.command != Command::compensate)
     return item("program",
-                dialect_text(report) + fmt::format("{} mm of feed moves, {}", format_fixed(report.path_mm, 1),
-                                                   counted(blocks.moves, "move")));
+                dialect_text(report) +
+                    fmt::format("{} mm of feed moves, {}{}", format_fixed(report.path_mm, 1),
+                                counted(blocks.moves, "move"),
+                                report.reversals ? ", " + counted(report.reversals->count, "reversal") : ""));
   const std::string others = blocks.others ? others_text(*blocks.others) : "";
   std::string text = dialect_text(report) + fmt::format("{} of {} corrected{}", blocks.corrected,
                                                         counted(blocks.moves, "move"),
                                                         others.empty() ? "" : " individually, " + others);
   text += fmt::format(", {} added", counted(blocks.inserted, "point"));
+  if (report.reversals) text += ", " + counted(report.reversals->count, "reversal");
   if (report.correction && report.correction->mm > 0)
     text += fmt::format(", largest correction {} mm", mm4(report.correction->mm));
   if (const auto& brief = report.control.short_blocks; brief && brief->count > 0)

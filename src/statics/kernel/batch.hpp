@@ -60,6 +60,8 @@ struct Batch {
   const double* R = nullptr;    ///< 9 each: wanted orientation, row by row; where it is controlled
   const double* F = nullptr;    ///< 6 each: wrench on the machine (N, N m), axes of M
   const double* rho = nullptr;  ///< commanded actuator values; where they are held
+  /// What joints of the real machine have more than the commanded values, for each actuator; null: nothing.
+  const double* lag = nullptr;
   // States of each machine; `stride`: numbers from start to start; 0: all have the same.
   const double *start = nullptr, *nominal_start = nullptr;
   long start_stride = 0, nominal_start_stride = 0;

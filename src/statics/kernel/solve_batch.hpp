@@ -71,16 +71,31 @@ void put_waypoints(const Batch& batch, int first, Work<T>& work) {
   }
 }
 
+/// What the joint of an actuator has more than the commanded value.
+template <class T>
+double actuator_offset(int a, int l, const Work<T>& work) {
+  const double offset = work.question.gravity * at(work.machine.actuator_offset, a);
+  return work.lag.empty() ? offset : offset + lane(at(work.lag, a), l);
+}
+
 template <class T>
 void put_actuator(int a, int l, double rho, Work<T>& work) {
-  put_joint(l, rho + work.question.gravity * at(work.machine.actuator_offset, a),
-            at(work.state.joints, at(work.machine.actuator_joint, a)));
+  put_joint(l, rho + actuator_offset(a, l, work), at(work.state.joints, at(work.machine.actuator_joint, a)));
 }
 
 template <class T>
 double get_actuator(int a, int l, const Work<T>& work) {
-  return lane(at(work.state.joints, at(work.machine.actuator_joint, a)).q, l) -
-         work.question.gravity * at(work.machine.actuator_offset, a);
+  return lane(at(work.state.joints, at(work.machine.actuator_joint, a)).q, l) - actuator_offset(a, l, work);
+}
+
+/// The lags of waypoints from `first` on.
+template <class T>
+void put_lags(const Batch& batch, int first, Work<T>& real) {
+  real.lag.resize(batch.lag == nullptr ? 0 : real.machine.actuator_joint.size());
+  const int actuators = static_cast<int>(real.lag.size());
+  for (int a = 0; a < actuators; ++a)
+    at(real.lag, a) =
+        gather<T>([&](int l) { return batch.lag[actuators * waypoint_of(batch, first, l) + a]; });
 }
 
 /// The machine has the actuators of the other one.
@@ -90,7 +105,8 @@ void copy_actuators(const Work<T>& from, Work<T>& to) {
   for (int a = 0; a < static_cast<int>(machine.actuator_joint.size()); ++a) {
     at(to.state.joints, at(machine.actuator_joint, a)) =
         at(from.state.joints, at(from.machine.actuator_joint, a));
-    if (at(machine.actuator_offset, a) == 0 || from.question.gravity == to.question.gravity) continue;
+    const bool same = at(machine.actuator_offset, a) == 0 || from.question.gravity == to.question.gravity;
+    if (same && from.lag.empty() && to.lag.empty()) continue;
     for (int l = 0; l < lane_count<T>; ++l) put_actuator(a, l, get_actuator(a, l, from), to);
   }
 }
@@ -211,6 +227,7 @@ void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch)
     coupled.begin(whole);
     const Work<T>& first_work = coupled.first();
     coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
+    put_lags(batch, first, coupled.real);
     const bool has_cells = batch.start == nullptr && batch.nominal_start == nullptr;
     if (has_cells) put_from_cells(batch, first, coupled);
     if (!has_cells && problem.real) put_states(batch, first, batch.start, batch.start_stride, coupled.real);

@@ -100,6 +100,16 @@ Series compile_series(const Branch& branch, bool weighs, bool turns, Numbering& 
   return series;
 }
 
+std::vector<double> reversals(const Machine& machine) {
+  std::vector<double> all;
+  bool any = false;
+  for (const Actuator& actuator : actuators(machine)) {
+    all.push_back(actuator.reversal.value_or(0));
+    any = any || all.back() > 0;
+  }
+  return any ? all : std::vector<double>{};
+}
+
 void note_spacing(const Series& series, Mechanism& mechanism) {
   for (const Part& part : series.parts) {
     double& least =
@@ -121,6 +131,7 @@ Mechanism compile(const Machine& machine) {
   mechanism.X_PT = machine.X_PT;
   mechanism.p_EP = machine.p_EP;
   mechanism.shown = shown_actuators(machine);
+  mechanism.reversal = reversals(machine);
   mechanism.gravity = machine.gravity.g;
   const bool weighs = !mechanism.gravity.isZero(0);
   Numbering numbering{0, mechanism.travel};

@@ -27,13 +27,13 @@ Pose pose_of(const double* numbers) {
 
 /// Waypoints of one problem of the kernel, and its answers.
 struct KernelBatch {
-  std::vector<double> p, R, F;
+  std::vector<double> p, R, F, lag;
   std::vector<const kernel::StartCell*> cells, nominal_cells;
   std::vector<unsigned char> accepted, is_stiff;
   std::vector<int> iterations;
   std::vector<double> rho, tips, nominal_tips;
 
-  void clear() { p.clear(), R.clear(), F.clear(), cells.clear(), nominal_cells.clear(); }
+  void clear() { p.clear(), R.clear(), F.clear(), lag.clear(), cells.clear(), nominal_cells.clear(); }
 
   void add(const Vector3& wanted_p, const Matrix3& wanted_R, const kernel::StartCell& nominal_cell) {
     append(wanted_p, p);
@@ -54,6 +54,7 @@ struct KernelBatch {
     batch.accepted = accepted.data(), batch.iterations = iterations.data();
     if (problem.real) {
       batch.F = F.data(), batch.cells = cells.data();
+      batch.lag = lag.empty() ? nullptr : lag.data();
       batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
     }
     kernel::instance_for(count).solve(problem, kernel::cell_schedule, batch);
@@ -148,6 +149,7 @@ struct BatchSolver::Impl {
       if (!cells.back().target) continue;
       batch.add(at.p, orientation_of(at), cells.back().kinematics->start);
       append(requests[i].F, batch.F);
+      if (acting.errors) append(lag_of(table.model.mechanism, requests[i].directions), batch.lag);
       batch.cells.push_back(cells.back().target.get());
       asked.push_back(i);
     }
@@ -229,6 +231,24 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
   sizes.load = std::max(size(line.F0), size(line.F1)) + sizes.kink;
   const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
   return {bounds.command, bounds.gain};
+}
+
+void BatchSolver::nominal_actuators(std::span<const TurnedPlace> places, std::span<ActuatorsAnswer> answers) {
+  KernelBatch& batch = impl_->batch;
+  batch.clear();
+  std::vector<std::shared_ptr<const KinematicsCell>> cells;
+  std::vector<std::size_t> asked;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    answers[i] = {};
+    const auto cell = impl_->kinematics_at(places[i]);
+    if (!cell) continue;
+    asked.push_back(i);
+    batch.add(places[i].p, impl_->orientation_of(places[i]), cell->start);
+    cells.push_back(cell);
+  }
+  impl_->solve_kinematics();
+  for (std::size_t k = 0; k < asked.size(); ++k)
+    answers[asked[k]] = {batch.accepted[k] != 0, batch.rho_of(k)};
 }
 
 const Configuration* BatchSolver::nominal_near(const TurnedPlace& place) {

@@ -216,6 +216,8 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
       steps.gradient.col(k) = heavier[mass++] - system.gradient;
     else if (varied.kind == ParameterKind::compliance)
       add_force_change(varied, system, units, deflections.at(first), steps.gradient.col(k));
+    else if (varied.kind == ParameterKind::reversal)
+      steps.held(first, k) = -0.5;
     else
       steps.held(first + varied.component, k) = 1;
     for (std::size_t a = 0; a < impl.actuators.size(); ++a)

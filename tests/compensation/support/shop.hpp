@@ -5,6 +5,7 @@
 #include <memory>
 #include <string>
 
+#include "compensation/solve/path_directions.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -77,10 +78,17 @@ struct Shop {
     options.write.decimals = order.decimals;
     datum_shift = order.datum_shift;
     if (order.in_batches) starts.emplace();
+    DirectionsEnd unknown, known;
+    add_first_motions(directions_along(job(), unknown), known.directions);
+    directions = directions_along(job(), known);
   }
 
   Job job() const {
-    return {model, program, path, *forces, options, read, &tools, starts ? &*starts : nullptr};
+    return {model,   program,
+            path,    *forces,
+            options, read,
+            &tools,  starts ? &*starts : nullptr,
+            {},      has_reversals(model) ? &directions : nullptr};
   }
   Compensation run(bool attribution = false) const { return compensate(job(), attribution); }
 
@@ -94,6 +102,7 @@ struct Shop {
   CompensationOptions options;
   Vector3 datum_shift;
   std::optional<StartTables> starts;
+  PathDirections directions;
 };
 
 inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {

@@ -40,9 +40,14 @@ struct WindowShop {
     if (!of.machine.tools.empty())
       tools = prepare_tools(of.machine, model, overview_of(read_program(of.text, "part.ngc", of.read)).tools);
     if (of.in_batches) starts.emplace();
-    windows.emplace(RunInput{model, frames, order.ignored, order.force, options, order.read, &tools,
-                             starts ? &*starts : nullptr},
-                    reader);
+    RunInput input{model,   frames,     order.ignored, order.force,
+                   options, order.read, &tools,        starts ? &*starts : nullptr};
+    if (has_reversals(model)) {
+      FileReader again = FileReader::of_bytes(of.text);
+      ProgramReader first(again, "part.ngc", of.read, least_moves);
+      input.first_directions = first_directions(input, first);
+    }
+    windows.emplace(input, reader);
   }
 
   const Order& order;

@@ -89,3 +89,24 @@ TEST_CASE("tangents of the tip by parameters are central differences of solved m
     check_tangents(sample("mill3"));
   }
 }
+
+TEST_CASE("the tangent by a reversal is that of half a step of the actuator backwards") {
+  Machine machine = sample("mill3");
+  std::get<Actuator>(machine.chains[0].elements[0]).reversal = 2e-5;
+  const std::vector<Parameter> all = parameters(machine);
+  std::size_t index = 0;
+  while (all[index].kind != ParameterKind::reversal) ++index;
+  const Model model = prepare(machine);
+  const ParameterTangents by_parameters(machine, model, {index});
+  StaticsWork work(model.mechanism), tangent_work = by_parameters.work();
+  const Load load{(Vector6() << 80, -50, 120, 1, -2, 0.5).finished(), false};
+  const Equilibrium found = solve_forward(model, model.home, load, Stage{}, work);
+  REQUIRE(found.status == Status::converged);
+  const Vector6 tangent = by_parameters.of_tip(found.configuration, load, tangent_work).col(0);
+  const double h = 1e-4;
+  const Vector6 expected =
+      -0.5 *
+      difference(loaded_tip(machine, Vector3(h, 0, 0), load), loaded_tip(machine, Vector3(-h, 0, 0), load)) /
+      (2 * h);
+  CHECK((tangent - expected).norm() < 1e-7);
+}

@@ -116,6 +116,7 @@ struct Work {
   Mat3<T> wanted_R{};
   Vec6<T> load{};                       ///< wrench at the machine's arm, axes of M
   std::vector<Vec6<T>> start_stress{};  ///< by element, as in StartCell
+  std::vector<T> lag{};                 ///< by actuator: joint less commanded value; empty: nothing
   bool stressed = false;                ///< the tangent has the stress of its elements
   bool moves_actuators = false;         ///< they are unknowns
   bool predicts_stress = false;         ///< the next tangent takes the stress that this step predicts_stress

@@ -1,0 +1,223 @@
+#include "compensation/solve/path_directions.hpp"
+
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/solver.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double least_motion = 1e-9;     // m or rad: more than the rounding of inverse kinematics
+constexpr double longest_step = 50 * mm;  // of an arm: its axes turn back once along it
+constexpr double largest_turn = pi / 8;   // around an arc, or of the tool
+constexpr double at_ends = 1e-3;          // of a step: a turning point nearer to an end is taken to be there
+constexpr double same_place = 10 * um;
+constexpr double turning_accuracy = 1e-7;   // of a step; the axis hardly moves beside a turning point
+constexpr std::size_t most_together = 256;  // places
+
+/// A place of the path.
+struct Place {
+  std::size_t move = 0;
+  double u = 0;
+  TipPosition at{};
+  const Segment* segment = nullptr;
+};
+
+/// Whether actuators go straight where the tip does.
+bool only_slides(const Mechanism& mechanism) {
+  const auto slides = [](const Part& part) {
+    const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
+    return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
+  };
+  return mechanism.chains.size() == 1 && std::ranges::all_of(mechanism.chains.front().parts, slides);
+}
+
+Place place_on(const Model& model, const Segment& segment, double u) {
+  return {segment.move, u, {&model, point_at(segment.wanted, u), orientation_at(segment, u)}, &segment};
+}
+
+void add_segment(const Job& job, const Segment& segment, std::vector<Place>& places) {
+  const Model& model = model_of(job, segment);
+  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
+  const bool straight = only_slides(model.mechanism) && turned == 0;
+  const double steps =
+      straight ? 1 : std::ceil(length(segment.wanted) / longest_step + turned / largest_turn);
+  const int n = static_cast<int>(std::clamp(steps, 1.0, 4096.0));
+  places.push_back(place_on(model, segment, 0));
+  if (!straight) places.push_back(place_on(model, segment, at_ends / n));
+  for (int k = 1; k < n; ++k) places.push_back(place_on(model, segment, static_cast<double>(k) / n));
+  if (!straight) places.push_back(place_on(model, segment, 1 - at_ends / n));
+  places.push_back(place_on(model, segment, 1));
+}
+
+/// Positions of moves that have no segment: the hole of a cycle, and a position from an unknown one.
+void add_positions(const Job& job, std::size_t m, std::vector<Place>& places) {
+  const Move& move = job.program.moves[m];
+  if (!all_known(move.known_end)) return;
+  const Model& model = model_with(job.model, job.tools, move.tool);
+  const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
+  const std::optional<Matrix3> R = orientation_of(job, move);
+  const auto add = [&](double u, const Vector3& p_mm) {
+    places.push_back({m, u, {&model, X_MW * (p_mm * mm), R}});
+  };
+  if (!move.cycle) return add(1, move.end_mm);
+  const Vector3 bottom = bottom_of(move);
+  add(0.5, {bottom.x(), bottom.y(), move.cycle->retract_mm});
+  add(1, bottom);
+}
+
+std::vector<Place> places_of(const Job& job) {
+  std::vector<Place> places;
+  std::size_t next = 0;
+  for (std::size_t m = 0; m < job.program.moves.size(); ++m) {
+    const bool has_segment = next < job.path.segments.size() && job.path.segments[next].move == m;
+    if (has_segment)
+      add_segment(job, job.path.segments[next++], places);
+    else
+      add_positions(job, m, places);
+  }
+  return places;
+}
+
+class Follower {
+ public:
+  Follower(const Job& job, DirectionsEnd& end) : job_(job), end_(end), solver_(job), path_(end.directions) {}
+
+  PathDirections run() {
+    const std::vector<Place> places = places_of(job_);
+    for (std::size_t first = 0; first < places.size(); first += most_together) {
+      const std::size_t count = std::min(most_together, places.size() - first);
+      std::vector<TipPosition> positions;
+      for (std::size_t i = 0; i < count; ++i) positions.push_back(places[first + i].at);
+      const std::vector<Eigen::VectorXd> rho = solver_.actuators(positions);
+      for (std::size_t i = 0; i < count; ++i) {
+        if (rho[i].size() == 0) return std::move(path_);
+        go_to(places[first + i], rho[i]);
+      }
+    }
+    return std::move(path_);
+  }
+
+ private:
+  struct Turning {
+    double u;
+    std::size_t actuator;
+    int sign;
+  };
+
+  void go_to(const Place& place, const Eigen::VectorXd& values) {
+    if (end_.rho.size() != values.size()) {
+      end_.rho = values;
+      last_ = {place};
+      return;
+    }
+    const Mechanism& mechanism = place.at.model->mechanism;
+    const Eigen::VectorXd rho = values + full_turns(mechanism, values, end_.rho);
+    std::vector<Turning> turnings;
+    for (std::size_t a = 0; a < mechanism.reversal.size(); ++a) {
+      const double way = rho[static_cast<Eigen::Index>(a)] - end_.rho[static_cast<Eigen::Index>(a)];
+      const int sign = way > 0 ? 1 : -1;
+      if (!(std::abs(way) > least_motion) || end_.directions.of(a) == sign) continue;
+      turnings.push_back({turning_point(place, a, sign), a, sign});
+    }
+    std::ranges::stable_sort(turnings, {}, &Turning::u);
+    for (Turning& t : turnings) {
+      t.u = shared_place(place, t.u);
+      const bool reverses = end_.directions.of(t.actuator) == -t.sign && mechanism.reversal[t.actuator] > 0;
+      end_.directions.set(t.actuator, t.sign);
+      path_.add({place.move, t.u, t.actuator, end_.directions, reverses});
+    }
+    end_.rho = rho;
+    last_.push_back(place);
+    if (last_.size() > 2) last_.erase(last_.begin());
+  }
+
+  /// Several joints of an arm turn back at one place, but for rounding: they reverse together there. A
+  /// turning point beside an end of the move is taken to be at the end.
+  double shared_place(const Place& place, double u) const {
+    if (place.segment == nullptr || !(length(place.segment->wanted) > 0)) return u;
+    const double near = same_place / length(place.segment->wanted);
+    if (u < near) u = 0;
+    if (u > 1 - near) u = 1;
+    if (path_.changes().empty() || path_.changes().back().move != place.move) return u;
+    const double last = path_.changes().back().u;
+    return u - last < near ? last : u;
+  }
+
+  /// Where the actuator that moves with `sign` to this place began to: between the place before the last one
+  /// and this one, if both are on one segment; else at the last place, or where the move begins.
+  double turning_point(const Place& place, std::size_t actuator, int sign) {
+    const Place* from = last_.empty() ? nullptr : &last_.back();
+    if (from == nullptr || from->segment != place.segment || place.segment == nullptr)
+      return from != nullptr && from->move == place.move ? from->u : 0;
+    if (last_.size() < 2 || last_.front().segment != place.segment) return from->u;
+    return least_inside(*place.segment, last_.front().u, place.u, actuator, sign);
+  }
+
+  /// The fraction between u0 and u1 at which `sign` times the actuator is least: golden section.
+  double least_inside(const Segment& segment, double u0, double u1, std::size_t actuator, int sign) {
+    const double golden = (std::sqrt(5.0) - 1) / 2, accuracy = turning_accuracy * (u1 - u0);
+    const auto value = [&](double u) {
+      const TipPosition at = place_on(model_of(job_, segment), segment, u).at;
+      const Eigen::VectorXd rho = solver_.actuators({&at, 1}).front();
+      if (rho.size() == 0) return HUGE_VAL;
+      const Eigen::VectorXd near = rho + full_turns(at.model->mechanism, rho, end_.rho);
+      return sign * near[static_cast<Eigen::Index>(actuator)];
+    };
+    double a = u1 - golden * (u1 - u0), b = u0 + golden * (u1 - u0);
+    double at_a = value(a), at_b = value(b);
+    while (u1 - u0 > accuracy) {
+      if (at_a < at_b) {
+        u1 = b, b = a, at_b = at_a;
+        at_a = value(a = u1 - golden * (u1 - u0));
+      } else {
+        u0 = a, a = b, at_a = at_b;
+        at_b = value(b = u0 + golden * (u1 - u0));
+      }
+    }
+    return (u0 + u1) / 2;
+  }
+
+  const Job& job_;
+  DirectionsEnd& end_;
+  PlaceSolver solver_;
+  PathDirections path_;
+  std::vector<Place> last_{};  // the last two
+};
+
+}  // namespace
+
+Directions PathDirections::at(std::size_t move, double u, Side side) const {
+  const bool includes = u <= 0 || (u < 1 && side == Side::after);  // what changes there
+  const auto is_before = [&](const DirectionChange& change) {
+    if (change.move != move) return change.move < move;
+    return includes ? change.u <= u : change.u < u;
+  };
+  const auto behind = std::ranges::partition_point(changes_, is_before);
+  return behind == changes_.begin() ? first_ : std::prev(behind)->behind;
+}
+
+void PathDirections::inside(std::size_t move, std::vector<double>& fractions) const {
+  fractions.clear();
+  const auto is_before = [&](const DirectionChange& change) { return change.move < move; };
+  for (auto change = std::ranges::partition_point(changes_, is_before);
+       change != changes_.end() && change->move == move; ++change)
+    if (change->is_reversal && change->u > 0 && change->u < 1 &&
+        (fractions.empty() || fractions.back() < change->u))
+      fractions.push_back(change->u);
+}
+
+PathDirections directions_along(const Job& job, DirectionsEnd& end) {
+  if (job.model.mechanism.reversal.empty()) return PathDirections{};
+  return Follower(job, end).run();
+}
+
+void add_first_motions(const PathDirections& path, Directions& first) {
+  for (const DirectionChange& change : path.changes())
+    if (first.of(change.actuator) == 0) first.set(change.actuator, change.behind.of(change.actuator));
+}
+
+}  // namespace counterflex
