@@ -257,6 +257,10 @@ class Ladder {
     return prior;
   }
 
+  bool has(ParameterSet set) const {
+    return std::find(candidates_.set.begin(), candidates_.set.end(), set) != candidates_.set.end();
+  }
+
   /// The step from where `all` is linearised for a fit with these sets to the rows outside of a group.
   FitStep trained(const std::vector<ParameterSet>& sets, const RowGroup& group) const {
     std::vector<bool> is_held(all_.rows.size(), false);
@@ -313,6 +317,7 @@ std::vector<ParameterSet> climb(const Ladder& ladder, const Measurements& measur
   std::vector<ParameterSet> kept;
   std::vector<RowErrors> now = ladder.errors(kept);
   for (const ParameterSet set : sets) {
+    if (!ladder.has(set)) continue;
     std::vector<ParameterSet> with = kept;
     with.push_back(set);
     const std::vector<RowErrors> next = ladder.errors(with);

@@ -24,29 +24,39 @@ std::string quoted(std::string_view text) {
 
 /// `value` with as many digits as its deviation makes sense of, and three more.
 std::string number(double value, double sigma) {
-  if (value == 0) return "0.0";
+  if (std::abs(value) <= 1e-6 * sigma) return "0.0";
   const int digits = sigma > 0 ? static_cast<int>(std::floor(std::log10(std::abs(value) / sigma))) + 4 : 9;
   std::string text = fmt::format("{:.{}g}", value, std::clamp(digits, 4, 15));
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-std::string entry(const IdentifiedParameter& parameter, const std::string& note) {
+std::string_view source_of(const IdentifiedParameter& parameter, const Machine& machine) {
+  if (parameter.is_identified) return "measured";
+  for (const ParameterStatement& stated : machine.parameters)
+    if (stated.name == parameter.name)
+      return stated.source == NumberSource::measured    ? "measured"
+             : stated.source == NumberSource::catalogue ? "catalogue"
+                                                        : "prior";
+  return "prior";
+}
+
+std::string entry(const IdentifiedParameter& parameter, const Machine& machine, const std::string& files) {
+  const std::string note = (parameter.is_identified ? "identified from " : "not identified by ") + files;
   return fmt::format("{} = {{ value = {}, sigma = {:.3g}, source = \"{}\", note = {} }}",
                      quoted(parameter.name),
                      number(parameter.value / parameter.unit, parameter.sigma / parameter.unit),
-                     parameter.sigma / parameter.unit, parameter.is_identified ? "measured" : "prior",
-                     quoted(parameter.is_identified ? note : note + "; not identified"));
+                     parameter.sigma / parameter.unit, source_of(parameter, machine), quoted(note));
 }
 
 }  // namespace
 
 std::string with_identified(std::string_view text, const std::string& file, const Identification& found,
-                            const std::string& note) {
+                            const std::string& files) {
   const toml_file::Source source(text, file);
   const toml::table document = source.parse();
   std::map<std::string, std::string> entries;
   for (const IdentifiedParameter& parameter : found.parameters)
-    entries[parameter.name] = entry(parameter, note);
+    entries[parameter.name] = entry(parameter, found.machine, files);
   // Lines of entries that are there are replaced; an inline table is one line.
   std::map<int, std::string> replaced;
   int header = 0;

@@ -83,9 +83,8 @@ void check_coverage(unsigned campaigns, double least, double most) {
     MachineKind kind;
     double length, turn, force;
   };
-  for (const Case& at :
-       {Case{MachineKind::mill3, 0.15, 0, 400}, Case{MachineKind::robot6r, 0, 0.5, 600},
-        Case{MachineKind::hexapod, 0.04, 0, 400}, Case{MachineKind::orthoglide, 0.05, 0, 200}}) {
+  for (const Case& at : {Case{MachineKind::mill3, 0.15, 0, 400}, Case{MachineKind::robot6r, 0, 0.5, 600},
+                         Case{MachineKind::hexapod, 0.04, 0, 400}}) {
     const Coverage coverage = parameter_coverage(at.kind, campaigns, at.length, at.turn, at.force);
     CAPTURE(static_cast<int>(at.kind));
     CAPTURE(coverage.count);
@@ -101,8 +100,8 @@ TEST_CASE("made machines: identified values lie in their 95 % intervals") {
 }
 
 TEST_SUITE("long") {
-  TEST_CASE("made machines: identified values lie in their 95 % intervals, 200 campaigns each") {
-    check_coverage(200, 0.93, 0.97);
+  TEST_CASE("made machines: identified values lie in their 95 % intervals, 40 campaigns each") {
+    check_coverage(40, 0.93, 0.97);
   }
 }
 

@@ -229,3 +229,24 @@ TEST_CASE("two rows that were swapped are named") {
   CHECK(std::min(found.outliers[0].at.line, found.outliers[1].at.line) == 12);
   CHECK(std::max(found.outliers[0].at.line, found.outliers[1].at.line) == 35);
 }
+
+TEST_CASE("with two sessions each is predicted by a fit to the other, and sets that help are kept") {
+  Random random(21);
+  const Machine nominal = six_axis_robot(), truth = drawn(nominal, 0.5e-3, 5e-4, 0.3, random);
+  Measurements all;
+  for (const char* name : {"A", "B"})
+    add_tracker(truth, tracker_frame, probe, true, 80, 0, 0.8, 2e-5, random, all, name);
+  IdentifyOptions options;
+  options.threads = 2;
+  const Identification found = identify(nominal, all, options);
+  REQUIRE(found.held_out.size() == 2);
+  for (const HeldOutGroup& group : found.held_out) {
+    CAPTURE(group.name);
+    CHECK(group.after.count == 60);
+    CHECK(group.before.mean > 3e-4);
+    CHECK(group.after.mean < 6e-5);
+  }
+  REQUIRE(found.ladder.size() == 3);
+  CHECK(found.ladder[1].set == ParameterSet::geometry);
+  CHECK(found.ladder[1].is_kept);
+}

@@ -101,8 +101,9 @@ Identification identify(const Machine& machine, const Measurements& measurements
                         const IdentifyOptions& options);
 
 /// The text of a machine file with the identified values and standard deviations in its table [parameters].
-/// All other lines stay. `text` is the file that was read; `file` names it.
+/// All other lines stay. `text` is the file that was read; `file` names it; `files` are the measurements, for
+/// notes.
 std::string with_identified(std::string_view text, const std::string& file, const Identification& found,
-                            const std::string& note);
+                            const std::string& files);
 
 }  // namespace counterflex

@@ -94,8 +94,8 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
     const std::string text = read_file(options.machine);
     machine_file.emplace(output);
     machine_file->write(fmt::format("{} {} from {}\n", mark, version, names_of(options.identify.data)));
-    machine_file->write(with_identified(without_mark(text), options.machine, found,
-                                        "identified from " + names_of(options.identify.data)));
+    machine_file->write(
+        with_identified(without_mark(text), options.machine, found, names_of(options.identify.data)));
   }
   if (!report.empty()) {
     json_file.emplace(report);

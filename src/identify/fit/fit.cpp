@@ -12,7 +12,7 @@ constexpr int huber_rounds = 3, most_rounds = 30, most_linearisations = 12;
 constexpr double huber = 2.0;          // deviations, per component of a row
 constexpr double tukey = 6.0;          // rows farther out than this are left out
 constexpr double end_of_steps = 1e-7;  // of a parameter's deviation
-constexpr std::size_t few = 20;        // rows: below, the stated deviation is better than that of the residuals
+constexpr std::size_t few = 20;  // rows: below, the stated deviation is better than that of the residuals
 // Medians of the norms of 1 and 3 standard normal variables.
 constexpr std::array<double, 4> median_norm = {0, 0.6744897501960817, 0, 1.5381722544550522};
 

@@ -29,6 +29,7 @@ class NormalMatrix {
 
  private:
   void reduce() {
+    if (used_ == 0) return;  // of a session that is held out
     sum_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.topRows(used_).transpose());
     used_ = 0;
   }

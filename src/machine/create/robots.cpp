@@ -66,18 +66,18 @@ std::string joint_lines(const Robot& robot, std::size_t i) {
              joint.axis, number(compliance_of(robot, i)), axis);
 }
 
-/// The link behind joint `i`, and its error slot.
+/// The error slot of joint `i`, whose rotation about the axis is the joint's zero, and the link behind it.
 std::string link_lines(const Robot& robot, std::size_t i) {
   const RobotJoint& joint = robot.joints[i];
   const std::string& place = i + 1 < robot.joints.size() ? robot.joints[i + 1].place : robot.flange;
-  std::string text;
+  std::string text = fmt::format("  {{ error = \"A{}\" }},\n", i + 1);
   if (!place.empty() || joint.kg)
     text += fmt::format("  {{ rigid = {{ {} }}", place) +
             (joint.kg ? fmt::format(", mass = {{ kg = {}, at_mm = {}, name = \"link{}\" }}",
                                     number(*joint.kg), triple(joint.at_mm), i + 1)
                       : "") +
             " },\n";
-  return text + fmt::format("  {{ error = \"link{}\" }},\n", i + 1);
+  return text;
 }
 
 std::string arm(const Robot& robot) {
@@ -103,8 +103,8 @@ std::string arm_parameters(const Robot& robot) {
     if (robot.joints[i].kg)
       text += stated(fmt::format("link{}.kg", i + 1), {percent(10), NumberSource::catalogue, robot.masses});
   for (std::size_t i = 0; i < robot.joints.size(); ++i)
-    text += stated_errors(fmt::format("link{}", i + 1),
-                          {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"}, position, orientation);
+    text += stated_errors(fmt::format("A{}", i + 1), {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"},
+                          position, orientation);
   return text;
 }
 
@@ -136,7 +136,8 @@ std::string arm_head(const Robot& robot, const MachineFacts& facts) {
 /// The place under the tip at home (mm, whole).
 Vector3 below_tip(const std::string& text) {
   Pose X;
-  for (const Element& element : read_machine(text, "machine.toml").chains.at(0).elements) {
+  const Machine machine = read_machine(text, "machine.toml");
+  for (const Element& element : machine.chains.at(0).elements) {
     if (const auto* rigid = std::get_if<Rigid>(&element)) X = X * rigid->X;
     if (const auto* actuator = std::get_if<Actuator>(&element))
       X = X * rotation(exp_so3(actuator->joint.axis * actuator->home));

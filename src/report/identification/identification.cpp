@@ -31,7 +31,7 @@ std::string parameter_lines(const Identification& found) {
       fmt::format("\n{:<{}} {:>12} {:>12} {:>11}\n", "parameter", width, "before", "after", "sigma");
   for (const IdentifiedParameter& p : found.parameters)
     text += fmt::format("{:<{}} {:>12.5g} {:>12.5g} {:>11.2g}{}\n", p.name, width, p.before / p.unit,
-                        p.value / p.unit, p.sigma / p.unit, p.is_identified ? "" : "  not identified");
+                        shown_value(p) / p.unit, p.sigma / p.unit, p.is_identified ? "" : "  not identified");
   return text;
 }
 

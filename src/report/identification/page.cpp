@@ -100,7 +100,7 @@ std::string parameter_table(const Identification& found) {
       "<h2>Parameters</h2>\n<table>\n" + row({"name", "before", "after", "sigma", "prior sigma", ""}, "th");
   for (const IdentifiedParameter& p : found.parameters)
     text += row({xml_escaped(p.name), fmt::format("{:.5g}", p.before / p.unit),
-                 fmt::format("{:.5g}", p.value / p.unit), fmt::format("{:.2g}", p.sigma / p.unit),
+                 fmt::format("{:.5g}", shown_value(p) / p.unit), fmt::format("{:.2g}", p.sigma / p.unit),
                  fmt::format("{:.2g}", p.prior / p.unit), p.is_identified ? "" : "not identified"},
                 "td", p.is_identified ? "" : "free");
   text += "</table>\n";
@@ -132,7 +132,8 @@ std::string row_tables(const Identification& found) {
   }
   if (found.worst.empty()) return text;
   text += "<p>The worst rows of the fit:";
-  for (std::size_t i = 0; i < found.worst.size(); ++i) text += (i == 0 ? " " : ", ") + file_line(found.worst[i]);
+  for (std::size_t i = 0; i < found.worst.size(); ++i)
+    text += (i == 0 ? " " : ", ") + file_line(found.worst[i]);
   return text + ".</p>\n";
 }
 

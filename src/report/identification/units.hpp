@@ -1,5 +1,6 @@
 #pragma once
 /// Names and units of an identification's results.
+#include <cmath>
 #include <string_view>
 
 #include "counterflex/geometry/types.hpp"
@@ -19,6 +20,11 @@ inline std::string_view name_of(ParameterSet set) {
       return "mass";
   }
   return "";
+}
+
+/// SI; 0 where all digits are rounding.
+inline double shown_value(const IdentifiedParameter& p) {
+  return std::abs(p.value) <= 1e-6 * p.sigma ? 0 : p.value;
 }
 
 struct ErrorUnit {

@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "counterflex/machine/create.hpp"
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "statics/support/laws_tables.hpp"
@@ -61,6 +62,12 @@ void check_tangents(const Machine& machine) {
   }
 }
 
+Machine made(MachineKind kind) {
+  MachineFacts facts;
+  facts.kind = kind;
+  return read_machine(machine_file(facts), "made.toml");
+}
+
 Machine sample(const std::string& name) {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/" + name + "/machine.toml");
 }
@@ -84,6 +91,12 @@ TEST_CASE("tangents of the tip by parameters are central differences of solved m
   }
   SUBCASE("a hexapod with tables of errors") {
     check_tangents(laws::with_tables(sample("hexapod"), 0.3));
+  }
+  SUBCASE("a made Orthoglide, whose parallelograms have elastic bars") {
+    check_tangents(made(MachineKind::orthoglide));
+  }
+  SUBCASE("a made delta") {
+    check_tangents(made(MachineKind::delta));
   }
   SUBCASE("a milling machine") {
     check_tangents(sample("mill3"));
