@@ -23,6 +23,14 @@ std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration
 /// rigid one.
 double stiffness_along(const Matrix6& compliance, const Vector3& direction);
 
+/// The direction in which a force at the tip moves the tip furthest: a unit vector (axes of M) whose largest
+/// component is positive, and the stiffness along it (N/m). Infinite, with direction zero: rigid.
+struct SoftestDirection {
+  Vector3 direction = Vector3::Zero();
+  double stiffness = 0;
+};
+SoftestDirection softest_direction(const Matrix6& compliance);
+
 /// The inverse, with lengths in units of `length` (m); empty where the machine is rigid in some direction.
 std::optional<Matrix6> inverse_compliance(const Matrix6& compliance, double length);
 

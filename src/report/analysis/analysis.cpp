@@ -104,14 +104,6 @@ CorrectedTarget corrected_target(const Model& model, const Configuration& nomina
   return result;
 }
 
-// The sign of an eigenvector is free.
-template <typename Vector>
-void show_largest_positive(Vector& v) {
-  Eigen::Index largest = 0;
-  v.cwiseAbs().maxCoeff(&largest);
-  if (v[largest] < 0) v = -v;
-}
-
 // The unit twist (lengths in units of `length`) of least energy, and its stiffness in N/m.
 void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   Vector6 units = Vector6::Ones();
@@ -120,18 +112,9 @@ void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
   const Spectrum stiffnesses = spectrum((scaled + scaled.transpose()) / 2);
   result.weakest = stiffnesses.vectors.col(0);
   result.weakest_stiffness = stiffnesses.values[0];
-  show_largest_positive(result.weakest);
-}
-
-// Stiffness for a force at the tip: from the translational block of the compliance there.
-void find_softest(const Matrix6& compliance, PoseAnalysis& result) {
-  const Matrix3 C = compliance.topLeftCorner<3, 3>();
-  const Spectrum compliances = spectrum((C + C.transpose()) / 2);
-  const double stiffness = stiffness_along(compliance, compliances.vectors.col(2));
-  if (!std::isfinite(stiffness)) return;
-  result.softest = compliances.vectors.col(2);
-  result.softest_stiffness = stiffness;
-  show_largest_positive(result.softest);
+  Eigen::Index largest = 0;
+  result.weakest.cwiseAbs().maxCoeff(&largest);
+  if (result.weakest[largest] < 0) result.weakest = -result.weakest;  // the sign of an eigenvector is free
 }
 
 void describe(const Mechanism& machine, const Model& model, const Solved& solved, const Load& load,
@@ -145,7 +128,11 @@ void describe(const Mechanism& machine, const Model& model, const Solved& solved
   const Load acting = result.method == Method::linear ? Load{} : load;
   result.tip_compliance = compliance_at_tip(model, solved.stiff, acting, solved.stiff_stage, work);
   if (result.tip_compliance) {
-    find_softest(*result.tip_compliance, result);
+    if (const SoftestDirection softest = softest_direction(*result.tip_compliance);
+        std::isfinite(softest.stiffness)) {
+      result.softest = softest.direction;
+      result.softest_stiffness = softest.stiffness;
+    }
     result.tip_stiffness = inverse_compliance(*result.tip_compliance, model.mechanism.length);
   }
   result.condition = static_condition(model, solved.stiff, acting, solved.stiff_stage, work);
