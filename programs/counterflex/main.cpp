@@ -48,6 +48,8 @@ ExitStatus run_command(const Options& options, Console& console) {
       return run_check(options, console);
     case Command::create:
       return run_new(options, console);
+    case Command::map:
+      return run_map(options, console);
     case Command::identify:
       return run_identify(options, console);
     case Command::import:

@@ -60,23 +60,6 @@ std::optional<ErrorKind> judge(const AnalysisReport& report, const std::vector<P
   return error;
 }
 
-/// Throws (ErrorKind::usage) with the list of known tools.
-const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
-  const std::optional<long> number = read_tool_number(text);
-  if (!number)
-    throw InputError(ErrorKind::usage, {},
-                     fmt::format("--tool is '{}', must be T and its number, as T3", text));
-  std::string known;
-  for (const auto& entry : machine.tools) {
-    if (entry.first == 0) continue;  // no known tool: [tool]
-    if (entry.first == *number) return entry;
-    known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
-  }
-  throw InputError(ErrorKind::usage, {},
-                   fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
-                               known.empty() ? "none" : known));
-}
-
 /// Throws (ErrorKind::usage) for wrong values or combinations, before files are read.
 void check_values(const Options& options) {
   for (const std::string& text : options.analyze.at) pose_of("--at", text);

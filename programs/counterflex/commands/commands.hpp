@@ -15,6 +15,7 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console);
 std::optional<ErrorKind> run_verify(const Options& options, Console& console);
 std::optional<ErrorKind> run_compare(const Options& options, Console& console);
 std::optional<ErrorKind> run_analyze(const Options& options, Console& console);
+std::optional<ErrorKind> run_map(const Options& options, Console& console);
 std::optional<ErrorKind> run_forces(const Options& options, Console& console);
 std::optional<ErrorKind> run_identify(const Options& options, Console& console);
 /// Writes a machine file from another description of the machine.

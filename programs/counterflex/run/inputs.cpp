@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/program/program_files.hpp"
@@ -66,6 +67,22 @@ std::vector<ForceRule> read_profile(const std::string& role, const std::string& 
 }
 
 }  // namespace
+
+const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine) {
+  const std::optional<long> number = read_tool_number(text);
+  if (!number)
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--tool is '{}', must be T and its number, as T3", text));
+  std::string known;
+  for (const auto& entry : machine.tools) {
+    if (entry.first == 0) continue;  // no known tool: [tool]
+    if (entry.first == *number) return entry;
+    known += fmt::format("{}T{}", known.empty() ? "" : ", ", entry.first);
+  }
+  throw InputError(ErrorKind::usage, {},
+                   fmt::format("--tool {}: the machine file has no such tool; it has {}", text,
+                               known.empty() ? "none" : known));
+}
 
 void refuse_home(const Model& model, const Machine& machine) {
   const Location& home_at = machine.home_at;

@@ -26,6 +26,9 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
+/// The tool of --tool ("T3") and its number. Throws (ErrorKind::usage) with the list of known tools.
+const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine);
+
 /// Throws (ErrorKind::machine_or_force) if home does not close or is singular, or if gravity_reference is
 /// "home" and no actuator values hold the machine there under its weight.
 void refuse_home(const Model& model, const Machine& machine);

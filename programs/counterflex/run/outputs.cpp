@@ -13,6 +13,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/machine_drawing.hpp"
+#include "counterflex/report/map.hpp"
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
@@ -241,7 +242,7 @@ void check_output(const Options& options, std::string_view mark) {
   if (*options.output == "-" && options.json)
     throw InputError(
         ErrorKind::usage, {},
-        "the profile and the document of --json cannot both go to standard output; give -o a file");
+        "the table and the document of --json cannot both go to standard output; give -o a file");
   check_paths({*options.output}, inputs_of(options));
   const std::string extension = fs::path(*options.output).extension().string();
   if (*options.output != "-" && extension != ".csv")
@@ -261,11 +262,28 @@ void check_machine_output(const std::string& output, const std::vector<std::stri
                    "the file exists; give another name, or --force-overwrite to replace it");
 }
 
-void check_drawing_output(const Options& options) {
-  const std::string& path = *options.check.draw;
+namespace {
+
+void refuse_no_svg(std::string_view option, const std::string& path) {
   if (fs::path(path).extension() != ".svg")
     throw InputError(ErrorKind::usage, {},
-                     fmt::format("--draw writes a file that ends in .svg, not '{}'", path));
+                     fmt::format("{} writes a file that ends in .svg, not '{}'", option, path));
+}
+
+}  // namespace
+
+void check_map_outputs(const Options& options) {
+  check_output(options, map_table_mark);
+  if (!options.map.plot) return;
+  const std::string& path = *options.map.plot;
+  refuse_no_svg("--plot", path);
+  check_paths({path}, inputs_of(options));
+  if (!options.force_overwrite) refuse_foreign({marked_file(path, map_picture_mark)});
+}
+
+void check_drawing_output(const Options& options) {
+  const std::string& path = *options.check.draw;
+  refuse_no_svg("--draw", path);
   check_paths({path}, options.check.files);
   if (!options.force_overwrite) refuse_foreign({marked_file(path, drawing_mark)});
 }

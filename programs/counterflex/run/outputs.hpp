@@ -89,6 +89,9 @@ void check_output(const Options& options, std::string_view mark);
 /// replaced only with --force-overwrite. Throws as `output_paths`. Standard output, "-" or empty, is allowed.
 void check_machine_output(const std::string& output, const std::vector<std::string>& inputs, bool overwrite);
 
+/// Checks --output and --plot of `map`. Throws as `output_paths` and `refuse_foreign`.
+void check_map_outputs(const Options& options);
+
 /// Checks --draw of `check`. Throws as `output_paths` and `refuse_foreign`.
 void check_drawing_output(const Options& options);
 

@@ -201,6 +201,46 @@ void add_analyze(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_map(CLI::App& app, Options& options) {
+  CLI::App& command =
+      add_command(app, options, "map", Command::map,
+                  "Stiffness or deviation over the workspace: the best place for a part",
+                  "  counterflex map -m machine.toml --plot map.svg\n"
+                  "  counterflex map -m machine.toml --deviation --force=-150,80,-60 -o map.csv\n"
+                  "  counterflex map O1001.NC -m machine.toml --box 0,0,-400,600,400,-100 --grid 31,21,4");
+  command.add_option("PROGRAM", options.program, "A program to find the best place for; may be left out")
+      ->type_name("");
+  add_setting(command, options, "machine");
+  MapOptions& map = options.map;
+  const auto text = [&](const std::string& name, const std::string& type, const std::string& help,
+                        std::optional<std::string>& value) {
+    value_option(command, name, type, help, [&value](const std::string& given) { value = given; });
+  };
+  command.add_flag("--stiffness", map.stiffness,
+                   "The least stiffness of the tip and its direction (default)");
+  command.add_flag("--deviation", map.deviation,
+                   "Instead: the deviation of the tip with errors, weight and --force");
+  text("--direction", "DIRECTION", "The stiffness along x, y, z or a vector 1,0,1, instead of the least",
+       map.direction);
+  value_option(command, "--force", "FX,FY,FZ[,MX,MY,MZ]",
+               "A wrench on the tool at its tip: N and N m, machine frame",
+               [&map](const std::string& given) { map.force = parse_force(given); });
+  text("--box", "X0,Y0,Z0,X1,Y1,Z1",
+       "Corners of the mapped box in mm, machine frame (default: what the machine reaches)", map.box);
+  text("--grid", "NX,NY,NZ", "Places along x, y and z (default 21,21,3)", map.grid);
+  text("--rpy", "R,P,Y",
+       "Turns the orientation of home by roll, pitch, yaw in degrees, about the axes of the machine frame",
+       map.rpy);
+  text("--tool", "T3", "The tool of the machine file in the spindle (default: [tool], rigid)", map.tool);
+  value_option(command, "-o,--output", "OUTPUT", "Write all places as a table (.csv); -: to standard output",
+               [&](const std::string& output) { options.output = output; });
+  text("--plot", "FILE.svg", "Write a picture, one panel for each z", map.plot);
+  add_settings(command, options, {"threads", "force-overwrite"});
+  add_reading(command, options);
+  add_config(command, options);
+  add_output(command, options);
+}
+
 void add_show_forces(CLI::App& app, Options& options) {
   CLI::App& command = add_command(app, options, "forces", Command::forces,
                                   "Show the wrench of every feed move, or write it as a force profile",
@@ -383,6 +423,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_verify(app, options);
   add_compare(app, options);
   add_analyze(app, options);
+  add_map(app, options);
   add_show_forces(app, options);
   add_check(app, options);
   add_new(app, options);

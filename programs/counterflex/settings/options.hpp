@@ -23,6 +23,7 @@ enum class Command {
   create,
   import,
   identify,
+  map,
   batch,
   watch
 };
@@ -79,6 +80,14 @@ struct AnalyzeOptions {
   bool full = false;                 ///< details of every chain
   std::optional<std::string> hold;   ///< "X,Y,Z[,R,P,Y]"
   std::optional<std::string> curve;  ///< "DIRECTION=FROM:TO:STEPS"
+};
+
+/// Of `map`. Texts of the command line.
+struct MapOptions {
+  bool stiffness = false, deviation = false;  ///< neither: stiffness
+  std::optional<std::string> direction, box, grid, rpy, tool;
+  std::optional<Vector6> force;     ///< N, N m
+  std::optional<std::string> plot;  ///< an SVG file
 };
 
 struct IdentifyOptionTexts {
@@ -157,6 +166,7 @@ struct Options {
   CompareOptions compare;
   ForcesOptions forces_table;
   AnalyzeOptions analyze;
+  MapOptions map;
   IdentifyOptionTexts identify;
   ImportOptions import;
   BatchOptions batch;

@@ -252,6 +252,8 @@ bool has_setting(Command command, std::string_view option) {
       return is_among(option, {"threads", "force-overwrite"});
     case Command::identify:
       return is_among(option, {"machine", "threads", "force-overwrite"});
+    case Command::map:
+      return is_of_reading(option) || is_among(option, {"threads", "force-overwrite"});
     case Command::compare:
     case Command::create:
     case Command::import:

@@ -125,6 +125,20 @@ Pose written_pose_of(std::string_view name, std::string_view text, std::string_v
   return {rotation_of(form, numbers), Vector3(values[0], values[1], values[2]) * mm};
 }
 
+Vector3 direction_of(std::string_view name, std::string_view text) {
+  if (text == "x" || text == "y" || text == "z") return Vector3::Unit(text[0] - 'x');
+  const std::vector<double> values = numbers_of(name, text);
+  if (values.size() != 3)
+    throw InputError(
+        ErrorKind::usage, {},
+        fmt::format("{}: the direction '{}' must be x, y, z or three numbers, as 1,0,1", name, text));
+  const Vector3 direction(values[0], values[1], values[2]);
+  if (direction.norm() == 0)
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("{}: the direction '{}' must not be zero", name, text));
+  return direction.normalized();
+}
+
 CurveText curve_of(std::string_view name, std::string_view text) {
   const std::size_t equals = text.find('='), first = text.find(':', equals),
                     second = text.find(':', first + 1);
@@ -134,16 +148,7 @@ CurveText curve_of(std::string_view name, std::string_view text) {
         fmt::format("{}: '{}' must be a direction, two displacements in mm and a number of steps, "
                     "as z=0:-12:24 or 1,0,1=0:5:10",
                     name, text));
-  const std::string_view axis = text.substr(0, equals);
-  CurveText curve{Vector3::Zero()};
-  if (axis == "x" || axis == "y" || axis == "z")
-    curve.direction[axis[0] - 'x'] = 1;
-  else
-    curve.direction = pose_of(name, axis).X.p;
-  if (curve.direction.norm() == 0)
-    throw InputError(ErrorKind::usage, {},
-                     fmt::format("{}: the direction of '{}' must not be zero", name, text));
-  curve.direction.normalize();
+  CurveText curve{direction_of(name, text.substr(0, equals))};
   curve.from = number_of(name, text.substr(equals + 1, first - equals - 1)) * mm;
   curve.to = number_of(name, text.substr(first + 1, second - first - 1)) * mm;
   curve.steps = integer_of(name, text.substr(second + 1), 1, 10000);

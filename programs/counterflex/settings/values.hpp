@@ -41,6 +41,9 @@ inline const std::vector<std::string_view> pose_writers = {"kuka", "fanuc", "abb
 /// q4, or the rotation vector of UR in rad. `as` is one of `pose_writers`.
 Pose written_pose_of(std::string_view name, std::string_view text, std::string_view as);
 
+/// "z" or "1,0,1": a direction in the machine frame, made a unit vector.
+Vector3 direction_of(std::string_view name, std::string_view text);
+
 /// "z=0:-12:24" or "1,0,1=0:5:10": a direction in the machine frame (made a unit vector), and the first and
 /// last displacement (mm) and the number of steps between them.
 struct CurveText {
