@@ -7,6 +7,7 @@
 
 #include "commands/commands.hpp"
 #include "counterflex/files/files.hpp"
+#include "counterflex/machine/volcomp.hpp"
 #include "process/read_input.hpp"
 #include "process/standard_output.hpp"
 #include "run/outputs.hpp"
@@ -41,6 +42,8 @@ void refuse_foreign_options(const ImportOptions& options) {
   refuse(options.base.has_value(), "--base", "urdf");
   refuse(options.tip.has_value(), "--tip", "urdf");
   refuse(options.convention.has_value(), "--convention", "dh");
+  refuse(options.format.has_value(), "--format", "volcomp");
+  refuse(options.negate, "--negate", "volcomp");
 }
 
 DhConvention read_convention(const std::optional<std::string>& text) {
@@ -55,6 +58,28 @@ DhConvention read_convention(const std::optional<std::string>& text) {
   return *text == "standard" ? DhConvention::standard : DhConvention::modified;
 }
 
+VolcompFormat read_format(const std::optional<std::string>& text) {
+  if (text == "isg") return VolcompFormat::isg;
+  if (text == "etalon") return VolcompFormat::etalon;
+  throw InputError(ErrorKind::usage, {}, "`import volcomp` needs --format isg or --format etalon");
+}
+
+/// Tables for a machine file, and what of the file no table can have.
+std::string imported_tables(const ImportOptions& options) {
+  const std::string name = shown_name(options.file);
+  const Volcomp volcomp =
+      read_volcomp(text_of(options.file), name, read_format(options.format), options.negate);
+  std::string text = fmt::format(
+      "# counterflex import volcomp: {}\n"
+      "# Put these tables into the machine file, and error_table = \"x\" into the actuator of axis X.\n",
+      name);
+  for (const auto& [error, value] : volcomp.position_errors)
+    text += fmt::format("# {} = {:.6g} {} is an error between two axes: put it into an error slot.\n", error,
+                        1e6 * value, error[0] >= 'X' ? "um" : "urad");
+  for (const auto& [axis, table] : volcomp.tables) text += "\n" + table_text(axis, table);
+  return text;
+}
+
 std::string imported(const ImportOptions& options) {
   const std::string name = shown_name(options.file);
   if (options.source == "dh") {
@@ -67,7 +92,8 @@ std::string imported(const ImportOptions& options) {
     return import_urdf(text_of(options.file), name, options.base.value_or(""), options.tip.value_or(""));
   throw InputError(
       ErrorKind::usage, {},
-      fmt::format("unknown source '{}' of import; use dh, linuxcnc, ur-calibration or urdf", options.source));
+      fmt::format("unknown source '{}' of import; use dh, linuxcnc, ur-calibration, urdf or volcomp",
+                  options.source));
 }
 
 int count_of(std::string_view text, std::string_view word) {
@@ -82,6 +108,10 @@ std::optional<ErrorKind> run_import(const Options& options, Console& console) {
   refuse_foreign_options(options.import);
   const std::string output = options.output.value_or("-");
   check_machine_output(output, {options.import.file}, options.force_overwrite);
+  if (options.import.source == "volcomp") {
+    write_file(output, imported_tables(options.import));
+    return std::nullopt;
+  }
   const std::string text = imported(options.import);
   write_file(output, text);
   console.note(

@@ -360,16 +360,24 @@ void add_import(CLI::App& app, Options& options) {
       "  counterflex import urdf robot.urdf --base base_link --tip tool0 -o machine.toml\n"
       "  counterflex import dh arm.csv --convention standard -o machine.toml\n"
       "  counterflex import ur-calibration calibration.yaml -o machine.toml\n"
-      "  counterflex import linuxcnc hexapod.ini -o machine.toml");
-  add_file(command, "SOURCE", options.import.source, "What FILE is: urdf, dh, ur-calibration or linuxcnc");
-  add_file(command, "FILE", options.import.file,
-           "A URDF, a table of DH parameters (.csv), a calibration of a UR arm (.yaml), a HAL or INI file");
+      "  counterflex import linuxcnc hexapod.ini -o machine.toml\n"
+      "  counterflex import volcomp mill.csv --format isg -o tables.toml");
+  add_file(command, "SOURCE", options.import.source,
+           "What FILE is: urdf, dh, ur-calibration, linuxcnc or volcomp");
+  add_file(
+      command, "FILE", options.import.file,
+      "A URDF, a table of DH parameters (.csv), a calibration of a UR arm (.yaml), a HAL or INI file, or a "
+      "file of volumetric compensation");
   value_option(command, "--base", "LINK", "Of a URDF: the link that is the machine frame (default: the root)",
                [&](const std::string& text) { options.import.base = text; });
   value_option(command, "--tip", "LINK", "Of a URDF: the link that is the platform (default: the only end)",
                [&](const std::string& text) { options.import.tip = text; });
   value_option(command, "--convention", "standard|modified", "Of a DH table",
                [&](const std::string& text) { options.import.convention = text; });
+  value_option(command, "--format", "isg|etalon", "Of a file of volumetric compensation",
+               [&](const std::string& text) { options.import.format = text; });
+  command.add_flag("--negate", options.import.negate,
+                   "The file of volumetric compensation has what the control adds, not the errors");
   value_option(command, "-o,--output", "OUTPUT", "The machine file (default: standard output)",
                [&](const std::string& text) { options.output = text; });
   add_setting(command, options, "force-overwrite");

@@ -102,6 +102,8 @@ struct ImportOptions {
   std::string file;
   std::optional<std::string> base, tip;   ///< links of a URDF
   std::optional<std::string> convention;  ///< of a DH table
+  std::optional<std::string> format;      ///< of volumetric compensation
+  bool negate = false;                    ///< the file has what the control adds, not the errors
 };
 
 struct BatchOptions {

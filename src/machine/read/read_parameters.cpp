@@ -79,7 +79,7 @@ void read_parameters(const toml::table& document, const Source& source, Machine&
       statement.note = without_controls(as_text(*note, "note", source));
     statements.emplace_back(key.source().begin, std::move(statement));
   }
-  std::stable_sort(statements.begin(), statements.end(), [](const auto& a, const auto& b) {
+  std::sort(statements.begin(), statements.end(), [](const auto& a, const auto& b) {
     return a.first.line != b.first.line ? a.first.line < b.first.line : a.first.column < b.first.column;
   });
   for (auto& [at, statement] : statements) machine.parameters.push_back(std::move(statement));
