@@ -235,6 +235,11 @@ TEST_CASE("trivkins has the axes and the travel of the INI file") {
   CHECK(text.find("axes that are left out, because trivkins does not state where they are: A.") != text.npos);
 }
 
+TEST_CASE("a machine without a name in the INI file is named by the file") {
+  CHECK(read_machine(import_linuxcnc({{"shop/mill.ini", replaced(mill_ini, "knee mill", "")}}), "m.toml")
+            .name == "mill");
+}
+
 TEST_CASE("bad HAL files are refused at their place") {
   CHECK(message_of_hal("loadrt trivkins\n") ==
         "arm.hal:1:1: error: no line sets a pin of genserkins or genhexkins; import the HAL "

@@ -180,6 +180,21 @@ TEST_CASE("masses of a URDF act at the centre of all links that are fixed togeth
   CHECK(sources.prior == 6 * 7 + 1);
 }
 
+TEST_CASE("a URDF robot without a name is named by its file, and equal names of masses get numbers") {
+  const auto everywhere = [](std::string text, std::string_view old, std::string_view by) {
+    for (std::size_t at = 0; (at = text.find(old, at)) != text.npos; at += by.size())
+      text.replace(at, old.size(), by);
+    return text;
+  };
+  CHECK(read_machine(import_urdf(everywhere(arm, "\"six\"", "\"\""), "folder/arm.urdf", "base", "tool0"),
+                     "m.toml")
+            .name == "arm");
+  const std::string alike = everywhere(everywhere(arm, "\"l1\"", "\"a b\""), "\"l2\"", "\"a.b\"");
+  const Machine machine = check_import(alike, "base", "tool0");
+  CHECK(mass_named(machine, "a_b") != nullptr);
+  CHECK(mass_named(machine, "a_b_2") != nullptr);
+}
+
 TEST_CASE("base and tip of a URDF may be left out if there is one end") {
   std::string chain = arm;
   for (const char* name : {"camera", "rod", "loose", "eye", "piston", "chip"}) {

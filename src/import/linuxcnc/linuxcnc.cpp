@@ -48,7 +48,7 @@ PlacedText module_of(const LinuxCnc& source) {
 
 std::string machine_name(const LinuxCnc& source) {
   const PlacedText* name = source.ini == nullptr ? nullptr : source.ini->find("EMC", "MACHINE");
-  return name == nullptr ? file_stem(source.file) : name->text;
+  return name == nullptr || name->text.empty() ? file_stem(source.file) : name->text;
 }
 
 }  // namespace import

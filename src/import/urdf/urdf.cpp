@@ -148,6 +148,16 @@ ArmJoint joint_of(const urdf::Joint& joint, const Link& child, const UrdfText& t
   return result;
 }
 
+/// Adds the number of the last joint to the name of its mass, if an earlier mass has this name: "a b" and
+/// "a.b" are both a_b.
+void name_mass(std::vector<ArmJoint>& joints) {
+  std::optional<LinkMass>& mass = joints.back().mass;
+  if (!mass) return;
+  const auto is_taken = [&](const ArmJoint& other) { return other.mass && other.mass->name == mass->name; };
+  while (mass->name.empty() || std::any_of(joints.begin(), joints.end() - 1, is_taken))
+    mass->name += fmt::format("_{}", joints.size());
+}
+
 /// Names of the links that joints beside the path move: they are not imported.
 std::vector<std::string> left_out(const std::vector<urdf::JointSharedPtr>& path, const Link& base) {
   std::vector<std::string> names;
@@ -180,7 +190,8 @@ std::string import_urdf(std::string_view text, const std::string& file, const st
   const Link last = tip.empty() ? only_end(first, urdf) : find_link(*model, tip, "--tip", urdf);
   const std::vector<urdf::JointSharedPtr> path = path_between(first, last, urdf);
   SerialArm arm;
-  arm.name = model->getName();
+  arm.name = comment_text(model->getName());
+  if (arm.name.empty()) arm.name = file_stem(file);
   arm.head = {fmt::format("{}urdf: {}, from {} to {}", import_mark, file_name(file),
                           comment_text(first->name), comment_text(last->name)),
               fmt::format("# M is {}, P is {}.", comment_text(first->name), comment_text(last->name))};
@@ -191,6 +202,7 @@ std::string import_urdf(std::string_view text, const std::string& file, const st
     if (joint->type == urdf::Joint::FIXED) continue;
     refuse_joint(*joint, urdf);
     arm.joints.push_back(joint_of(*joint, model->getLink(joint->child_link_name), urdf));
+    name_mass(arm.joints);
     arm.end.back().comment.clear();  // it is that of the actuator
     arm.joints.back().before = std::move(arm.end);
     arm.end.clear();
