@@ -81,7 +81,11 @@ double Kinematics::solve(const Pose* X_MT, Configuration& configuration) {
       moved_by = step(damping * x, now.closures, configuration);
       then = equations(X_MT, configuration);
       next = then.errors().norm();
-      if (next < size || next < closure_tolerance || !fresh || damping < smallest_part) break;
+      if (next < size || next < closure_tolerance || !fresh) break;
+      if (damping < smallest_part) {  // no step leads nearer: the target is not reached
+        configuration = before;
+        return size;
+      }
     }
     // An old linearisation that no longer contracts is thrown away, and so is its step if that made things
     // worse.
