@@ -112,7 +112,10 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
       const NominalResult commanded = solver.nominal({place.model, place.target, requests[i].R}, joints);
       if (commanded.status != Status::converged) continue;
       StaticsWork work(place.model->mechanism);
-      const Equilibrium loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
+      Equilibrium loaded =
+          equilibrium_at(*place.model, commanded.configuration, place.load, {}, answers[i].X_MT, work);
+      if (loaded.status != Status::converged)
+        loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
       if (loaded.status == Status::converged)
         solved[begin + i] = {place.at.s, place.at.line,
                              loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};

@@ -24,6 +24,9 @@ struct BatchRequest {
   TurnedPlace at;
   Vector6 F = Vector6::Zero();
   Directions directions{};
+  /// Forward: the actuators of the command (m, rad), where they are known, which saves nominal kinematics.
+  /// All requests of a call have them, or none.
+  const Eigen::VectorXd* rho = nullptr;
 };
 
 /// Forward: where the tip is when the place is commanded. Target: what has to be commanded for the tip to be

@@ -54,6 +54,11 @@ bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, 
 Equilibrium refine_forward(const Model& model, const Configuration& start, const Load& load,
                            const Stage& goal, StaticsWork& work);
 
+/// The equilibrium of `solve_forward` whose tip X_MT is known, as `BatchSolver` gives it, from `nominal`
+/// without the continuation. `not_converged` where Newton's method ends at another one.
+Equilibrium equilibrium_at(const Model& model, const Configuration& nominal, const Load& load,
+                           const Stage& goal, const Pose& X_MT, StaticsWork& work);
+
 /// (22) by Newton: actuators for which the loaded machine has the controlled components of its tip on those
 /// of `X_MT`; the start is `nominal` at `X_MT`, followed as in `solve_forward`.
 Equilibrium solve_target(const Model& model, const Configuration& nominal, const Pose& X_MT, const Load& load,

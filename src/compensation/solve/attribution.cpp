@@ -19,8 +19,8 @@ Pose reference(const ForwardPlace& place, const Stage& stage) {
 }
 
 // The deviation under `stage` of a command, where `before` is known.
-template <typename Result>  // Vector6&(Waypoint&)
-void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Result& result) {
+template <typename Take>  // (std::size_t index, const Vector6& deviation, ForwardAnswer&&)
+void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Take& take) {
   std::vector<std::size_t> asked;
   std::vector<ForwardRequest> requests;
   for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
@@ -32,7 +32,8 @@ void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& st
                         .F = at.places[i].F,
                         .stage = stage,
                         .R = target.R,
-                        .directions = at.places[i].directions});
+                        .directions = at.places[i].directions,
+                        .rho = target.rho.size() > 0 ? &target.rho : nullptr});
   }
   std::vector<ForwardAnswer> answers(requests.size());
   at.solver.forwards(requests, answers);
@@ -40,7 +41,8 @@ void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& st
     Waypoint& w = at.waypoints[asked[k]];
     w.iterations += answers[k].iterations;
     if (answers[k].status == Status::converged)
-      result(w) = deviation(answers[k].X_MT, reference(at.places[asked[k]], stage));
+      take(asked[k], deviation(answers[k].X_MT, reference(at.places[asked[k]], stage)),
+           std::move(answers[k]));
     else if (w.status == Status::converged)
       w.status = answers[k].status;
   }
@@ -56,7 +58,9 @@ bool any_machine(std::span<const ForwardPlace> places, bool (*is)(const Mechanis
 
 void add_sources(const Solved& at) {
   const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
-    deviations(at, command, stage, [&](Waypoint& w) -> Vector6& { return (*w.causes).*result; });
+    deviations(at, command, stage, [&](std::size_t i, const Vector6& d, ForwardAnswer&&) {
+      (*at.waypoints[i].causes).*result = d;
+    });
   };
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
   add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
@@ -78,9 +82,12 @@ void add_sources(const Solved& at) {
 
 }  // namespace
 
-void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
+void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<Waypoint> waypoints) {
   deviations({solver, places, waypoints}, &ForwardPlace::original, {},
-             [](Waypoint& w) -> Vector6& { return w.before; });
+             [&](std::size_t i, const Vector6& d, ForwardAnswer&& answer) {
+               waypoints[i].before = d;
+               places[i].original.rho = std::move(answer.rho);
+             });
 }
 
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {

@@ -7,10 +7,12 @@
 
 namespace counterflex {
 
-/// A position (M, m), and an orientation where the program gives one.
+/// A position (M, m), an orientation where the program gives one, and the actuators there (m, rad) where they
+/// are known.
 struct Target {
   Vector3 p = Vector3::Zero();
   std::optional<Matrix3> R{};
+  Eigen::VectorXd rho{};
 };
 
 /// What has been solved at a waypoint.
@@ -22,11 +24,12 @@ struct ForwardPlace {
   Directions directions{};
 };
 
-/// Fills `before` at the ends of pieces and at places; a status that is not converged goes to the waypoint.
-void add_before(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
+/// Fills `before` at the ends of pieces and at places, and the actuators of the original command; a status
+/// that is not converged goes to the waypoint.
+void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<Waypoint> waypoints);
 
-/// Fills the causes at the ends of pieces and at places. The shift of a datum that was touched off is part of
-/// geometry alone.
+/// Fills the causes at the ends of pieces and at places. It is faster where actuators are known. The shift of
+/// a datum that was touched off is part of geometry alone.
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints);
 
 }  // namespace counterflex

@@ -75,7 +75,7 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
     const Vector3 original = original_command(job, frame_of(all.piece_of(s)), all.places[s].p_MT);
     places.push_back({request.model,
                       {original, all.places[s].R_MT},
-                      {request.target, request.R},
+                      {request.target, request.R, all.answers[s].rho},
                       request.F,
                       all.wanted[s].X_MT,
                       request.directions});

@@ -47,6 +47,8 @@ std::size_t length_of_run(std::span<const Request> requests) {
   const auto differs = [&](const Request& r) {
     if constexpr (requires { r.stage; })
       if (!(r.stage == requests.front().stage)) return true;
+    if constexpr (requires { r.rho; })
+      if ((r.rho == nullptr) != (requests.front().rho == nullptr)) return true;
     if constexpr (requires {
                     r.F;
                     r.R_MT;
@@ -152,7 +154,8 @@ void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<F
     if (m.batch) {
       requests_.clear();
       for (const ForwardRequest& request : requests.first(count))
-        requests_.push_back({m.place(request.target, request.R), stage.load * request.F, request.directions});
+        requests_.push_back(
+            {m.place(request.target, request.R), stage.load * request.F, request.directions, request.rho});
       m.batch->solve(BatchQuestion::forward, stage, requests_, answers_);
     }
     for (std::size_t i = 0; i < count; ++i) {

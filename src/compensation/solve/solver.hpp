@@ -39,6 +39,7 @@ struct ForwardRequest {
   bool within_travel = false;  ///< a command outside the travel of an actuator is `outside_travel`
   std::optional<Matrix3> R{};
   Directions directions{};
+  const Eigen::VectorXd* rho = nullptr;  ///< the actuators of the command (m, rad), if they are known
 };
 
 /// Where the tip is for a command.

@@ -47,13 +47,9 @@ PlaceState solve_from_home(const Model& model, const Pose& X_MT, const Load& loa
 /// `converged`: solve from home.
 PlaceState solve_from_cell(const Model& model, const Configuration& near, const Pose& X_MT, const Load& load,
                            const Pose& found, StaticsWork& work) {
-  constexpr double same = 1e-9;  // m and rad
   const NominalResult nominal = nominal_at(model, near, X_MT);
   if (nominal.status != Status::converged) return {nominal.status, {}};
-  Equilibrium loaded = refine_forward(model, nominal.configuration, load, whole_stage, work);
-  if (loaded.status == Status::converged &&
-      deviation(tip(model.mechanism, loaded.configuration), found).norm() > same)
-    loaded.status = Status::not_converged;
+  Equilibrium loaded = equilibrium_at(model, nominal.configuration, load, whole_stage, found, work);
   return {loaded.status, std::move(loaded.configuration)};
 }
 

@@ -41,6 +41,8 @@ inline constexpr double largest_step = 0.5;
 /// Two ways end there, or two cells have it, in units of l: another branch is further away. Of two ways
 /// alone, 1e-4: pass.
 inline constexpr double same_place = 1e-6;
+/// Of a tip that the kernel has found, in units of l: its equilibrium has it again.
+inline constexpr double known_tip = 1e-9;
 /// Of the displacement of a critical state: what the header promises.
 inline constexpr double bracket = 1e-9;
 

@@ -28,12 +28,16 @@ Pose pose_of(const double* numbers) {
 /// Waypoints of one problem of the kernel, and its answers.
 struct KernelBatch {
   std::vector<double> p, R, F, lag;
+  std::vector<double> held;  ///< actuators, where the problem has no nominal machine
   std::vector<const kernel::StartCell*> cells, nominal_cells;
   std::vector<unsigned char> accepted, is_stiff;
   std::vector<int> iterations;
   std::vector<double> rho, tips, nominal_tips;
 
-  void clear() { p.clear(), R.clear(), F.clear(), lag.clear(), cells.clear(), nominal_cells.clear(); }
+  void clear() {
+    p.clear(), R.clear(), F.clear(), lag.clear(), held.clear();
+    cells.clear(), nominal_cells.clear();
+  }
 
   void add(const Vector3& wanted_p, const Matrix3& wanted_R, const kernel::StartCell& nominal_cell) {
     append(wanted_p, p);
@@ -50,7 +54,10 @@ struct KernelBatch {
     kernel::Batch batch;
     batch.count = static_cast<int>(count);
     batch.p = p.data(), batch.R = R.data(), batch.actuators = rho.data();
-    batch.nominal_cells = nominal_cells.data(), batch.nominal_tip = nominal_tips.data();
+    if (problem.nominal)
+      batch.nominal_cells = nominal_cells.data(), batch.nominal_tip = nominal_tips.data();
+    else
+      batch.rho = held.data();
     batch.accepted = accepted.data(), batch.iterations = iterations.data();
     if (problem.real) {
       batch.F = F.data(), batch.cells = cells.data();
@@ -150,6 +157,8 @@ struct BatchSolver::Impl {
       batch.add(at.p, orientation_of(at), cells.back().kinematics->start);
       append(requests[i].F, batch.F);
       if (acting.errors) append(lag_of(table.model.mechanism, requests[i].directions), batch.lag);
+      if (requests[i].rho != nullptr)
+        batch.held.insert(batch.held.end(), requests[i].rho->begin(), requests[i].rho->end());
       batch.cells.push_back(cells.back().target.get());
       asked.push_back(i);
     }
@@ -166,14 +175,15 @@ struct BatchSolver::Impl {
              std::span<BatchAnswer> answers) {
     collect(requests, acting);
     const bool is_forward = question == BatchQuestion::forward;
-    kernel::Problem problem{.real = table.question(acting), .nominal = table.nominal()};
+    kernel::Problem problem{.real = table.question(acting)};
+    if (batch.held.empty()) problem.nominal = table.nominal();
     for (std::size_t j = 0; j < 6; ++j)
       problem.of_command[j] = is_forward || (question == BatchQuestion::target && j >= 3);
     batch.solve(problem);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       BatchAnswer& answer = answers[asked[i]];
       answer.solved = batch.accepted[i] != 0 && batch.is_stiff[i] != 0 && in_travel(i);
-      answer.command = pose_of(&batch.nominal_tips[12 * i]);
+      if (problem.nominal) answer.command = pose_of(&batch.nominal_tips[12 * i]);
       if (is_forward) answer.command.p = requests[asked[i]].at.p;
       answer.X_MT = pose_of(&batch.tips[12 * i]);
       answer.iterations = batch.iterations[i];

@@ -22,6 +22,16 @@ Equilibrium refine_forward(const Model& model, const Configuration& start, const
   return refine(model, start, {load, goal, nullptr}, newton, work.impl());
 }
 
+Equilibrium equilibrium_at(const Model& model, const Configuration& nominal, const Load& load,
+                           const Stage& goal, const Pose& X_MT, StaticsWork& work) {
+  Equilibrium found = refine_forward(model, nominal, load, goal, work);
+  if (found.status != Status::converged) return found;
+  const Vector6 apart = difference(tip(model.mechanism, found.configuration), X_MT);
+  if (apart.cwiseQuotient(Units{model.mechanism.length}.of_pose()).norm() > known_tip)
+    found.status = Status::not_converged;
+  return found;
+}
+
 bool is_reached_by_load_alone(const Model& model, const Configuration& nominal, const Load& load,
                               const Stage& goal, const Equilibrium& loaded, StaticsWork& work) {
   Stage unloaded = goal;

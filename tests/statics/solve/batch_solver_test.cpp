@@ -70,6 +70,34 @@ TEST_CASE("batches: machines without their assembly errors are solved as single 
 }
 
 TEST_CASE(
+    "batches: where the actuators of commands are known, tips are the same, and in other actuators others") {
+  for (const BatchTrial& batch_trial : batch_trials()) {
+    CAPTURE(batch_trial.trial.name);
+    BatchBench bench(batch_trial.machine, batch_trial.at_platform);
+    Random random(13);
+    const auto requests = cluster(bench, batch_trial.trial, random, 6, 0.004);
+    const auto commands = bench.solve(BatchQuestion::forward, whole, requests);
+    std::vector<BatchRequest> known = requests;
+    for (std::size_t k = 0; k < known.size(); ++k) {
+      REQUIRE(commands[k].solved);
+      known[k].rho = &commands[k].rho;
+    }
+    for (const Stage& stage : {whole, without_errors}) {
+      const auto expected = bench.solve(BatchQuestion::forward, stage, requests),
+                 answers = bench.solve(BatchQuestion::forward, stage, known);
+      for (std::size_t k = 0; k < known.size(); ++k) {
+        REQUIRE(answers[k].solved);
+        CHECK(difference(answers[k].X_MT, expected[k].X_MT).norm() < 1e-11);
+      }
+    }
+    const Eigen::VectorXd moved = commands[0].rho + Eigen::VectorXd::Constant(commands[0].rho.size(), 1e-4);
+    known[0].rho = &moved;
+    const auto answers = bench.solve(BatchQuestion::forward, whole, known);
+    CHECK(difference(answers[0].X_MT, commands[0].X_MT).norm() > 1e-5);
+  }
+}
+
+TEST_CASE(
     "batches: a command is the nominal position of the actuators that bring the tip to the wanted place") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   Random random(7);

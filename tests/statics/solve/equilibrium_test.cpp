@@ -205,6 +205,20 @@ TEST_CASE("iterations count the Newton steps of all stages: at least four stages
   CHECK(again.iterations <= 2);
 }
 
+TEST_CASE("an equilibrium is found again by its tip, and no other one is taken for it") {
+  const Model model = model_of("hexapod_free_joints");
+  StaticsWork work(model.mechanism);
+  const Load load{(Vector6() << 450, -300, -580, 0, 0, 0).finished(), false};
+  const Equilibrium e = solve_forward(model, model.home, load, {}, work);
+  const Pose X_MT = tip(model.mechanism, e.configuration);
+  const Equilibrium found = equilibrium_at(model, model.home, load, {}, X_MT, work);
+  CHECK(found.status == Status::converged);
+  CHECK(difference(tip(model.mechanism, found.configuration), X_MT).norm() < 1e-11);
+  CHECK(found.iterations < e.iterations);
+  const Pose beside{X_MT.R, X_MT.p + Vector3(0, 0, 1e-8)};
+  CHECK(equilibrium_at(model, model.home, load, {}, beside, work).status == Status::not_converged);
+}
+
 TEST_CASE("a workspace may be used again, for other loads and kinds of solve, with the same bits") {
   const Model model = model_of("laws_mixed");
   StaticsWork fresh(model.mechanism), used(model.mechanism);
