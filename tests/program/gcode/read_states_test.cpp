@@ -232,6 +232,13 @@ TEST_CASE("of two tools in a block the first one is loaded") {
   CHECK_THROWS(read("G21 G90 T3 T4 M6\nG0 X1.\n"));
 }
 
+TEST_CASE("M61 states the tool in the spindle, and the machine stays") {
+  const Program program = read("G21 G90 G0 X0 Y0 Z0\nM61 Q2\nG0 X1.\n");
+  CHECK(program.moves.at(1).tool == 2);
+  CHECK(program.moves.at(1).known_start == std::array<bool, 3>{true, true, true});
+  CHECK_THROWS(read("G21 G90 G0 X0 Y0 Z0\nM60 Q2\nG0 X1.\n"));
+}
+
 TEST_CASE("a repeated code is read once on shop controls") {
   CHECK(read("O1\nG21 G90 G0 G90 G0 X1.\n").moves.size() == 1);
   CHECK_THROWS(read("O1\nG21 G90 G0 G91 X1.\n"));

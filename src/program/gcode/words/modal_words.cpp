@@ -1,5 +1,7 @@
 #include "program/gcode/words/modal_words.hpp"
 
+#include <algorithm>
+
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
@@ -40,7 +42,15 @@ void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
   r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
 }
 
+/// M61 Q2 states the tool in the spindle. The machine does not move.
+void state_tool(Reading& r) {
+  const bool states = std::ranges::any_of(r.sorted.m, [](const FoundM& m) { return m.code == 61; });
+  const Word* q = states ? r.sorted.word('Q') : nullptr;
+  if (q != nullptr) r.state.tool = count_of(*q);
+}
+
 void apply_tool(Reading& r) {
+  state_tool(r);
   if (const Word* t = r.sorted.word('T')) r.state.tool_chosen = count_of(*t);
   if (!r.sorted.has(MAction::tool_change)) return;
   r.state.tool = r.state.tool_chosen;

@@ -81,6 +81,8 @@ Letters used_by(const FoundM& m) {
     case 64:
     case 65:
       return letters("P");
+    case 61:  // M61 Q2: the tool in the spindle
+      return letters("Q");
     case 66:
       return letters("ELPQ");
     case 67:
