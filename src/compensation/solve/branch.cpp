@@ -23,6 +23,24 @@ std::optional<Failure> configuration_failure(const Model& model, const Configura
                              margin->angle / deg, margin->what, least_arm_margin / deg)};
 }
 
+// Where the way from home to a place crosses another configuration of the arm: which one.
+std::optional<Failure> failure_on_the_way(PlaceSolver& solver, const TipPosition& to, int line) {
+  const Model& model = *to.model;
+  const Pose home = tip(model.mechanism, model.home);
+  const Vector3 turn = rotation_between(*to.R_MT, home.R);
+  Configuration last = model.home;
+  double reached = 0, beyond = 1;
+  for (int halvings = 0; halvings < 20; ++halvings) {
+    const double u = (reached + beyond) / 2;
+    const NominalResult there =
+        solver.nominal({&model, home.p + u * (to.p_MT - home.p), Matrix3(exp_so3(u * turn) * home.R)});
+    const bool is_reached = there.status == Status::converged;
+    if (is_reached) last = there.configuration;
+    (is_reached ? reached : beyond) = u;
+  }
+  return configuration_failure(model, last, line);
+}
+
 void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd& values, int line) {
   if (way.first.size() != values.size()) {
     way = {values, values, {}, {}};
@@ -71,7 +89,10 @@ FollowedPath follow_branch(const Job& job) {
           followed.failure = configuration_failure(model, there.configuration, segment.line);
         }
       }
-      if (status != Status::converged) followed.failure = status_failure(job, status, segment, next.p_MT);
+      if ((status == Status::singular || status == Status::unreachable) && next.R_MT)
+        followed.failure = failure_on_the_way(solver, next, segment.line);
+      if (status != Status::converged && !followed.failure)
+        followed.failure = status_failure(job, status, segment, next.p_MT);
       if (followed.failure) return followed;
     }
   }

@@ -10,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-constexpr double meets = 1e-6;  // of the machine's length: three axes have one point
+constexpr double meets = 1e-6;  // of the machine's length, or rad: axes have one point, or are parallel
 
 // The axis of a rotary joint: a unit vector, and a point from the tip (m).
 struct Line {
@@ -51,23 +51,46 @@ double angle_from_line(const Vector3& a, const Vector3& b) {
   return std::atan2(a.cross(b).norm(), std::abs(a.dot(b)));
 }
 
+bool are_parallel(const Line& a, const Line& b) {
+  return a.axis.cross(b.axis).norm() < meets;
+}
+
+// An arm whose last three axes meet in `centre`, from the tip.
+std::array<ArmMargin, 3> margins_of_common_wrist(const std::array<Line, 6>& axes, const Vector3& centre) {
+  const Vector3 &a2 = axes[1].axis, to_2 = to_line(centre, axes[1]), to_3 = to_line(centre, axes[2]);
+  const auto in_plane = [&](const Vector3& v) { return Vector3(v - v.dot(a2) * a2); };
+  const Vector3 forearm = in_plane(to_3), upper_arm = in_plane(to_2) - forearm;
+  const double reach = forearm.norm() + upper_arm.norm();
+  return {ArmMargin{angle_from_line(axes[3].axis, axes[5].axis), "wrist: axes A4 and A6 are in line"},
+          ArmMargin{angle_from_line(forearm, upper_arm), "elbow: the arm is stretched or folded"},
+          ArmMargin{std::atan2(to_line(centre, axes[0]).norm(), reach),
+                    "shoulder: the centre of the wrist is on axis A1"}};
+}
+
+// An arm whose axes 2, 3 and 4 are parallel, as those of Universal Robots. Two configurations meet where the
+// point of axes 5 and 6 is in the plane of axes 1 and 2.
+std::array<ArmMargin, 3> margins_of_parallel_axes(const std::array<Line, 6>& axes) {
+  const Vector3 centre = nearest_point(axes[5], axes[4]);
+  const Vector3 to_2 = to_line(centre, axes[1]), to_3 = to_line(centre, axes[2]),
+                to_4 = to_line(centre, axes[3]), upper_arm = to_3 - to_2, forearm = to_4 - to_3;
+  const Vector3 across = axes[0].axis.cross(axes[1].axis).normalized();
+  const double reach = forearm.norm() + upper_arm.norm();
+  return {ArmMargin{angle_from_line(axes[3].axis, axes[5].axis), "wrist: axes A4 and A6 are parallel"},
+          ArmMargin{angle_from_line(forearm, upper_arm), "elbow: the arm is stretched or folded"},
+          ArmMargin{std::atan2(std::abs(to_line(centre, axes[0]).dot(across)), reach),
+                    "shoulder: the wrist is in the plane of axes A1 and A2"}};
+}
+
 }  // namespace
 
 std::optional<std::array<ArmMargin, 3>> arm_margins(const Model& model, const Configuration& nominal) {
   if (!is_arm(model.mechanism)) return std::nullopt;
   const std::array<Line, 6> axes = axes_of(actuator_jacobian(model, nominal).J);
+  if (are_parallel(axes[1], axes[2]) && are_parallel(axes[2], axes[3])) return margins_of_parallel_axes(axes);
   const Vector3 centre = nearest_point(axes[4], axes[3]);
   for (const std::size_t i : {3u, 5u})
     if (!(to_line(centre, axes[i]).norm() < meets * model.mechanism.length)) return std::nullopt;
-  const Vector3 &a2 = axes[1].axis, to_2 = to_line(centre, axes[1]), to_3 = to_line(centre, axes[2]);
-  const auto in_plane = [&](const Vector3& v) { return Vector3(v - v.dot(a2) * a2); };
-  const Vector3 forearm = in_plane(to_3), upper_arm = in_plane(to_2) - forearm;
-  const double reach = forearm.norm() + upper_arm.norm();
-  return std::array{
-      ArmMargin{angle_from_line(axes[3].axis, axes[5].axis), "wrist: axes A4 and A6 are in line"},
-      ArmMargin{angle_from_line(forearm, upper_arm), "elbow: the arm is stretched or folded"},
-      ArmMargin{std::atan2(to_line(centre, axes[0]).norm(), reach),
-                "shoulder: the centre of the wrist is on axis A1"}};
+  return margins_of_common_wrist(axes, centre);
 }
 
 std::optional<ArmMargin> arm_margin(const Model& model, const Configuration& nominal) {

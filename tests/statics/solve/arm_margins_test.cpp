@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "statics/support/batch_support.hpp"
 
@@ -60,6 +61,32 @@ TEST_CASE("the wrist centre above axis 1 is a change of the shoulder") {
   CHECK(name_of(margin) == "shoulder");
   CHECK(margin.angle < 0.5 * deg);
   CHECK(margin.angle > 0);
+}
+
+TEST_CASE("the margins of an arm with three parallel axes are zero where its Jacobian is singular") {
+  const Model model = prepare(
+      read_machine(read_file(COUNTERFLEX_SOURCE_DIR "/samples/robot-ur10/machine.toml"), "machine.toml"));
+  // The wrist is in the plane of axes 1 and 2 at this angle of axis 2.
+  const double along = 0.612 + 0.5723 * std::cos(70 * deg) - 0.1157 * std::sin(40 * deg),
+               across = -0.5723 * std::sin(70 * deg) - 0.1157 * std::cos(40 * deg),
+               shoulder = std::atan2(along, -across) / deg;
+  struct Border {
+    const char* name;
+    std::array<double, 6> at, off;  // deg
+  };
+  for (const Border& border : {Border{"wrist", {10, -100, -110, -60, 0, 20}, {0, 0, 0, 0, 0.3, 0}},
+                               Border{"wrist", {10, -100, -110, -60, 180, 20}, {0, 0, 0, 0, -0.3, 0}},
+                               Border{"elbow", {10, -100, 0, -60, 70, 20}, {0, 0, 0.3, 0, 0, 0}},
+                               Border{"shoulder", {10, shoulder, 70, -30, 70, 20}, {0, 0.3, 0, 0, 0, 0}}}) {
+    CAPTURE(border.name);
+    std::array<double, 6> near = border.at;
+    for (std::size_t i = 0; i < 6; ++i) near[i] += border.off[i];
+    const ArmMargin margin = margin_at(model, near);
+    CHECK(name_of(margin) == border.name);
+    CHECK(margin.angle > 0.1 * deg);
+    CHECK(margin.angle < 0.3001 * deg);
+    CHECK(margin_at(model, border.at).angle < 1e-6);
+  }
 }
 
 TEST_CASE("machines that are no arms with a wrist have no such margin") {
