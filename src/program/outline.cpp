@@ -91,10 +91,15 @@ void OutlineScan::add(std::string_view blocks) {
 }
 
 void OutlineScan::add_krl(std::string_view lines) {
+  if (outline_.list_follows_loop) return;
   outline_.named_targets = outline_.named_targets || names_targets(lines);
   if (!outline_.data_lists) {
     const std::size_t list = data_list_at(lines);
     outline_.data_lists = list < lines.size();
+    const std::string_view mark = lines.substr(list, lines.find('\n', list) - list);
+    outline_.list_follows_loop = number_behind_mark(mark).has_value();
+    if (outline_.list_follows_loop) outline_.named_targets = false;
+    if (outline_.list_follows_loop) return;
     lines.remove_prefix(list);
   }
   if (!lines.empty()) add_elements(lines, outline_.arrays);

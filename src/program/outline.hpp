@@ -18,9 +18,10 @@ struct Outline {
   KlartextOutline klartext{};
   /// A robot program gives targets or other data names: moves depend on lines far from them.
   bool named_targets = false;
-  bool data_lists = false;  ///< data lists follow a KUKA program
-  KrlArrays arrays{};       ///< of these data lists
-  bool tool_axes = false;   ///< an APT program gives tool axes: GOTO/ with six numbers
+  bool data_lists = false;         ///< data lists follow a KUKA program
+  KrlArrays arrays{};              ///< of these data lists
+  bool list_follows_loop = false;  ///< the data list is behind the loop that uses it
+  bool tool_axes = false;          ///< an APT program gives tool axes: GOTO/ with six numbers
 };
 
 /// Scans a text once, in portions of whole blocks. Finds nothing in dialects of G-code without numbered

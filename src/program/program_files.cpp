@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include "program/program_files.hpp"
+#include "program/robot/kuka/loops.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -27,9 +28,12 @@ int count_newlines(const std::string& path) {
   bool begins_line = true;
   for (std::string text; file.append(text, portion_size) > 0;) {
     for (std::size_t at = 0; at < text.size();) {
-      if (begins_line && std::string_view(text).substr(at).starts_with(file_mark))
-        throw InputError(ErrorKind::usage, {path, count + 1, 1},
-                         "a line that begins with '&FILE ' is not supported in programs with data lists");
+      const std::string_view rest = std::string_view(text).substr(at);
+      if (begins_line && (rest.starts_with(file_mark) || rest.starts_with(back_mark)))
+        throw InputError(
+            ErrorKind::usage, {path, count + 1, 1},
+            fmt::format("a line that begins with '{}' is not supported in programs with data lists",
+                        rest.substr(0, file_mark.size())));
       const std::size_t newline = text.find('\n', at);
       begins_line = newline != std::string::npos;
       if (begins_line) ++count;
@@ -67,6 +71,28 @@ FileReader join_files(const std::vector<std::string>& paths) {
   return FileReader::joined(std::move(parts));
 }
 
+std::optional<FileReader> join_files_by_motion(const std::vector<std::string>& paths) {
+  constexpr std::size_t largest_program = 200'000;  // bytes: the first portion of a reader has all of it
+  if (paths.size() != 2) return std::nullopt;
+  std::string program;
+  FileReader file(paths[0]);
+  while (program.size() <= largest_program && file.append(program, portion_size) > 0) {
+  }
+  if (program.size() > largest_program) return std::nullopt;
+  FileReader list(paths[1]);
+  const auto cut = cut_behind_loop(program, list);
+  if (!cut) return std::nullopt;
+  list.rewind();
+  std::string before = line_before(paths[1]);
+  before.insert(before.size() - 1, fmt::format("{}{}", line_mark, first_lines(paths)[1]));
+  std::vector<FileReader> parts;
+  parts.push_back(FileReader::of_bytes(program.substr(0, cut->at) + before));
+  parts.push_back(std::move(list));
+  parts.push_back(FileReader::of_bytes(fmt::format("\n{}{}{}\n", back_mark, line_mark, cut->line) +
+                                       program.substr(cut->at)));
+  return FileReader::joined(std::move(parts));
+}
+
 std::vector<int> first_lines(const std::vector<std::string>& paths) {
   std::vector<int> first{1};
   for (std::size_t i = 0; i + 1 < paths.size(); ++i)
@@ -96,13 +122,17 @@ void FileSplitter::finish() {
 }
 
 void FileSplitter::add(std::string_view lines) {
+  const auto begins_file = [&](std::size_t at) {
+    const std::string_view line = lines.substr(at);
+    return line.starts_with(file_mark) || line.starts_with(back_mark);
+  };
   for (std::size_t at = 0; at < lines.size();) {
     std::size_t mark = at;
-    while (!lines.substr(mark).starts_with(file_mark) && mark < lines.size())
+    while (mark < lines.size() && !begins_file(mark))
       mark = std::min(lines.find('\n', mark), lines.size() - 1) + 1;
     write(lines.substr(at, mark - at));
     if (mark == lines.size()) return;
-    ++file_;
+    file_ = lines.substr(mark).starts_with(back_mark) ? 0 : file_ + 1;
     holds_newline_ = false;
     at = std::min(lines.find('\n', mark), lines.size() - 1) + 1;
   }

@@ -81,7 +81,7 @@ void divide(const Options& options, Run& run, const OutputPaths& paths, RunFiles
                     "they would not see its data list {}; write the targets into the program, or give "
                     "--max-points a larger number",
                     most, shown_name(run.file.data_lists.front().path)));
-  divide_program(file, dialect, text_of(run.file.bytes), most);
+  divide_program(file, dialect, text_of(run.file.by_line()), most);
   const std::vector<ProgramPart> parts = divide_program(paths.program, dialect, files.held_program(), most);
   files.write_parts(parts, part_paths(paths, parts, options));
   run.facts.warnings.push_back(
@@ -110,6 +110,7 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   prepare_writing(options, *run);
   RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
   if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();
+  if (run->file.lines) files.count_loop();
   RunTally tally = tally_for(options, *run);
   PointCount points;
   const std::optional<Failure> failure = compensate_all(*run, tally, files, points, console);

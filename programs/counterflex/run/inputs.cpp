@@ -182,7 +182,10 @@ ProgramFile open_program(const std::string& role, const std::string& path,
   const std::vector<std::string> files = files_of_program(path, data_lists);
   if (!data_lists.empty() && !takes_data_lists(path))
     console.warning(shown_name(path), 0, "data lists (--data) are read with KUKA programs (.src) only");
-  ProgramFile program{{role, path, {}}, join_files(files)};
+  auto by_motion = join_files_by_motion(files);
+  const bool has_lines = by_motion.has_value();
+  ProgramFile program{{role, path, {}}, has_lines ? std::move(*by_motion) : join_files(files)};
+  if (has_lines) program.lines.emplace(join_files(files));
   if (files.size() == 1) return program;
   FileReader alone(path);
   program.file.sha256 = sha256(alone);

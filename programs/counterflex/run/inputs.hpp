@@ -54,6 +54,10 @@ struct ProgramFile {
   InputFile file;
   FileReader bytes;
   std::vector<InputFile> data_lists{};  ///< behind the program in `bytes`, with their hashes
+  /// Where the data list follows its loop in `bytes`: the files one behind the other, as lines are counted.
+  std::optional<FileReader> lines{};
+
+  FileReader& by_line() { return lines ? *lines : bytes; }
 };
 
 /// The data lists of `path` are the one beside it and `data_lists`. The console then names lines in the file

@@ -301,6 +301,9 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
   for (const OutputPaths::List& list : paths.lists) lists_.emplace_back(list.path).hash_along();
   if (!lists_.empty())
     splitter_.emplace([this](std::size_t file, std::string_view bytes) {
+      if (counted_ && file == 0) counted_->program += bytes;
+      if (counted_ && file == 1) counted_->list.write(bytes);
+      if (counted_) return;
       (file == 0 ? *program_ : lists_.at(file - 1)).write(bytes);
     });
   open(plot_, paths.plot);
@@ -376,8 +379,18 @@ std::vector<FileWriter*> RunFiles::written_lists() {
   return lists;
 }
 
+void RunFiles::write_counted() {
+  LoopCount count = loop_count_of(counted_->program);
+  counted_->list.read([&](const std::string& lines) { add_elements(lines, count); });
+  program_->write(with_loop_end(std::move(counted_->program), count));
+  counted_->list.read(
+      [&](std::string lines) { lists_.at(0).write(with_array_size(std::move(lines), count)); });
+  counted_.reset();
+}
+
 void RunFiles::publish(bool with_program) {
   if (splitter_) splitter_->finish();
+  if (counted_ && with_program) write_counted();
   std::vector<FileWriter*> files{if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)};
   if (with_program) {
     const std::vector<FileWriter*> lists = written_lists();

@@ -12,6 +12,7 @@
 #include "counterflex/program/program_files.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
+#include "process/spooled_text.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {
@@ -95,6 +96,12 @@ void check_map_outputs(const Options& options);
 /// Checks --draw of `check`. Throws as `output_paths` and `refuse_foreign`.
 void check_drawing_output(const Options& options);
 
+/// A program whose end of a loop is not known yet, and its data list.
+struct CountedProgram {
+  std::string program{};
+  SpooledText list{};
+};
+
 /// The files of a run, written under temporary names. They get their names only when the run succeeds.
 class RunFiles {
  public:
@@ -110,6 +117,10 @@ class RunFiles {
   /// From now on `add_program` collects the program: it may be divided when it is complete.
   void hold_program() { held_.emplace(); }
   const std::string& held_program() const { return *held_; }
+
+  /// The data list of the program follows its loop: its end and the size of the array are counted when all
+  /// targets are known.
+  void count_loop() { counted_.emplace(); }
 
   /// Writes what is held: whole, or the main program and its parts into these files.
   void write_held();
@@ -133,12 +144,15 @@ class RunFiles {
   /// (ErrorKind::program_text) if a list of the control has changed.
   std::vector<FileWriter*> written_lists();
 
+  void write_counted();
+
   OutputPaths paths_;
   CsvColumns columns_;
   std::size_t next_row_ = 0;
   std::optional<FileSplitter> splitter_;  ///< of a program with data lists
   std::vector<FileWriter> lists_, parts_;
   std::optional<std::string> held_;
+  std::optional<CountedProgram> counted_;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
   std::vector<FileHash> published_;
 };

@@ -313,12 +313,12 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
-  if (options.report || options.json) add_texts(report, run.file.bytes);
+  if (options.report || options.json) add_texts(report, run.file.by_line());
   report.exit_status = exit_number(report.error_kind);
   std::string json = to_json(report);
   const std::string machine =
       files.with_page() ? machine_json(machine_along(on.machine, on.model, places)) : "null";
-  if (tally.curves()) files.add_report(report, json, *tally.curves(), machine, run.file.bytes);
+  if (tally.curves()) files.add_report(report, json, *tally.curves(), machine, run.file.by_line());
   run.file.bytes.refuse_change();  // the file was read more than once
   files.publish(!report.error_kind);
   return {std::move(report), std::move(json)};

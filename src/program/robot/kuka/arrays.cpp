@@ -1,7 +1,11 @@
 // The elements of arrays in data lists.
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <vector>
 
+#include "counterflex/files/input_error.hpp"
+#include "counterflex/program/program_files.hpp"
 #include "program/program_files.hpp"
 #include "program/robot/kuka/loops.hpp"
 #include "program/robot/kuka/names.hpp"
@@ -31,15 +35,16 @@ struct Count {
   long inserted() const { return next - 1 - original; }
 };
 
-Count count_array(std::string_view text, std::size_t list, const std::string& array) {
+/// The size of the array in its declaration is in the program or in a data list.
+Count count_array(std::string_view text, const std::string& array) {
   Count count;
   RobotLine line;
-  line.line_end.end = list;
   while (next_robot_line(text, krl_comment, line)) {
     if (part(text, line.code).find('[') == std::string_view::npos) continue;
     const auto element = element_in(text, line);
     if (!element) {
-      if (const auto size = declared_size(text, line, array)) count.size = size;
+      const auto size = declared_size(text, line, array);
+      if (size && whole_number(text, *size)) count.size = size;
       continue;
     }
     if (element->array != array) continue;
@@ -67,10 +72,165 @@ std::optional<Span> declared_size(std::string_view text, const RobotLine& line, 
   return std::nullopt;
 }
 
+namespace {
+
+/// The first loop over an array in a text that reads as a program. A statement that changes an element ends
+/// the search.
+std::optional<KrlLoop> first_loop(std::string_view text) {
+  RobotLine line;
+  while (next_robot_line(text, krl_comment, line)) {
+    const auto loop = loop_over_array(text, "", line);
+    if (loop) return loop;
+  }
+  return std::nullopt;
+}
+
+/// Adds the names that lines of a list give to aggregates, and its elements of arrays.
+struct ListScan {
+  std::string array{};    ///< of the loop
+  bool declared = false;  ///< with its size
+  KrlArrays arrays{};
+  std::vector<std::string> names{};  ///< of other aggregates
+
+  void add(std::string_view lines) {
+    RobotLine line;
+    while (next_robot_line(lines, krl_comment, line)) {
+      const std::string_view code = part(lines, line.code);
+      if (code.find('{') == std::string_view::npos) {
+        const auto size = declared_size(lines, line, array);
+        declared = declared || (size && whole_number(lines, *size));
+        continue;
+      }
+      const auto assignment = assignment_in(lines, line.code);
+      if (assignment && code.find('[') < code.find('=') && element_in(lines, line)) continue;
+      names.push_back(assignment ? krl_word(part(lines, assignment->variable)) : std::string(code));
+    }
+    add_elements(lines, arrays);
+  }
+};
+
+ListScan scan_list(FileReader& list, const std::string& array) {
+  constexpr std::size_t at_once = 1 << 16;
+  ListScan scan{array};
+  std::string text;
+  while (list.append(text, at_once) > 0) {
+    const std::size_t whole = text.rfind('\n') + 1;  // 0 without a newline
+    scan.add(std::string_view(text).substr(0, whole));
+    text.erase(0, whole);
+  }
+  scan.add(text);
+  return scan;
+}
+
+/// Whether the text has the variable, apart from its indices and members.
+bool has_name(std::string_view text, std::string_view variable) {
+  const std::string name(variable.substr(0, variable.find_first_of("[.")));
+  return krl_word(text).find(name) != std::string::npos;
+}
+
+std::size_t routines_in(std::string_view text) {
+  std::size_t count = 0;
+  RobotLine line;
+  while (next_robot_line(text, krl_comment, line)) count += begins_routine(text, line);
+  return count;
+}
+
+/// The first loop over an array, and no other statement that a text of several windows cannot have.
+std::optional<KrlLoop> only_loop(std::string_view program) {
+  if (names_targets(program) || routines_in(program) != 1) return std::nullopt;
+  try {
+    auto loop = first_loop(program);
+    if (!loop || first_loop(program.substr(loop->end))) return std::nullopt;
+    return first_loop(program.substr(0, loop->end)) ? loop : std::nullopt;
+  } catch (const InputError&) {
+    return std::nullopt;  // its place is found when the program is read
+  }
+}
+
+}  // namespace
+
+std::optional<KrlCut> cut_behind_loop(std::string_view program, FileReader& list) {
+  const auto loop = only_loop(program);
+  if (!loop) return std::nullopt;
+  const ListScan scan = scan_list(list, loop->array);
+  const auto array = scan.arrays.find(loop->array);
+  const bool complete = scan.declared && scan.arrays.size() == 1 && array != scan.arrays.end() &&
+                        array->second.in_order && array->second.first == loop->first &&
+                        array->second.last == loop->last;
+  const auto is_used = [&](const std::string& name) { return has_name(program, name); };
+  if (!complete || std::ranges::any_of(scan.names, is_used)) return std::nullopt;
+  const auto before = program.substr(0, loop->end);
+  return KrlCut{loop->end, 1 + static_cast<int>(std::ranges::count(before, '\n'))};
+}
+
+std::optional<KrlNumbering> numbering_in(std::string_view window) {
+  const std::size_t list = data_list_at(window);
+  if (list == window.size() ||
+      window.substr(list, window.find('\n', list) - list).find(line_mark) == std::string_view::npos)
+    return std::nullopt;
+  const auto loop = first_loop(window.substr(0, list));
+  return loop ? std::optional(KrlNumbering{loop->array}) : std::nullopt;
+}
+
+std::string KrlNumbering::numbered(std::string lines) {
+  std::vector<TextChange> changes;
+  RobotLine line;
+  while (next_robot_line(lines, krl_comment, line)) {
+    if (part(lines, line.code).find('[') == std::string_view::npos) continue;
+    const auto element = element_in(lines, line);
+    if (!element || element->array != array) continue;
+    if (!next) next = element->index;
+    if (*next != element->index)
+      changes.push_back({element->index_text, in_place_of(part(lines, element->index_text), *next)});
+    ++*next;
+  }
+  return changes.empty() ? lines : with_changes(lines, {0, lines.size()}, changes);
+}
+
+LoopCount loop_count_of(std::string_view program) {
+  const auto loop = first_loop(program);
+  return {loop ? loop->array : std::string()};
+}
+
+void add_elements(std::string_view lines, LoopCount& count) {
+  KrlArrays arrays;
+  add_elements(lines, arrays);
+  if (const auto array = arrays.find(count.array); array != arrays.end()) count.last = array->second.last;
+}
+
+std::string with_loop_end(std::string program, const LoopCount& count) {
+  const auto loop = first_loop(program);
+  if (!loop || loop->last == count.last) return program;
+  return program.replace(loop->last_number.begin, loop->last_number.end - loop->last_number.begin,
+                         std::to_string(count.last));
+}
+
+std::string with_array_size(std::string lines, const LoopCount& count) {
+  RobotLine line;
+  std::vector<TextChange> changes;
+  while (next_robot_line(lines, krl_comment, line)) {
+    const std::string_view code = part(lines, line.code);
+    if (code.find('[') == std::string_view::npos || code.find('{') != std::string_view::npos) continue;
+    const auto size = declared_size(lines, line, count.array);
+    const auto number = size ? whole_number(lines, *size) : std::nullopt;
+    if (number && *number < count.last)
+      changes.push_back({*size, in_place_of(part(lines, *size), count.last)});
+  }
+  return with_changes(lines, {0, lines.size()}, changes);
+}
+
 std::size_t data_list_at(std::string_view text) {
   if (text.starts_with(file_mark)) return 0;
   const std::size_t newline = text.find('\n' + std::string(file_mark));
   return newline == std::string_view::npos ? text.size() : newline + 1;
+}
+
+std::optional<int> number_behind_mark(std::string_view code) {
+  if (!code.starts_with(file_mark) && !code.starts_with(back_mark)) return std::nullopt;
+  const std::size_t mark = code.rfind(line_mark);
+  const auto number =
+      mark == std::string_view::npos ? std::nullopt : whole_number(code, {mark + 1, code.size()});
+  return number ? std::optional(static_cast<int>(*number)) : std::nullopt;
 }
 
 std::optional<KrlElement> element_in(std::string_view text, const RobotLine& line) {
@@ -106,12 +266,17 @@ std::string with_counted_arrays(std::string text, const std::string& file) {
   while (next_robot_line(text, krl_comment, line) && line.span.begin < list) {
     const auto loop = loop_over_array(text, file, line);
     if (!loop) continue;
-    Count count = count_array(text, list, loop->array);
+    Count count = count_array(text, loop->array);
     if (count.inserted() <= 0) continue;
     changes.insert(changes.end(), count.changes.begin(), count.changes.end());
     changes.push_back({loop->last_number, std::to_string(loop->last + count.inserted())});
-    const auto size = count.size ? whole_number(text, *count.size) : std::nullopt;
-    if (size && *size < count.next - 1)
+    if (!count.size)
+      throw InputError(ErrorKind::program_text, {file, loop->motion.line, 1},
+                       fmt::format("targets are inserted into the array {}, but neither the program nor its "
+                                   "data lists declare its size; give the list that declares it with --data "
+                                   "FILE.dat, or allow a larger --tolerance-mm",
+                                   loop->array));
+    if (*whole_number(text, *count.size) < count.next - 1)
       changes.push_back({*count.size, in_place_of(part(text, *count.size), count.next - 1)});
   }
   return with_changes(text, {0, text.size()}, changes);

@@ -43,15 +43,15 @@ const KrlNamed& element_of(const KrlReading& r, const KrlLoop& loop, long index)
 }
 
 /// The move of a loop to one element. In the order of the text it is at the statement of the loop.
-void add_element_move(KrlReading& r, const KrlLoop& loop, const KrlNamed& element, const TargetMove& how) {
+void add_element_move(KrlReading& r, const KrlLoop& loop, const RobotLine& line, Span value,
+                      const TargetMove& how) {
   const std::string_view text = r.robot.program.text;
-  const auto aggregate = target_of_element(text, element.value, loop.member);
+  const auto aggregate = target_of_element(text, value, loop.member);
   const auto target = aggregate ? krl_target(*aggregate) : std::nullopt;
-  const RobotLine line = line_of(text, element);
   if (!target)
-    refuse(r.robot.program.file, line, element.value.begin,
+    refuse(r.robot.program.file, line, value.begin,
            fmt::format("'{}' is not a target of plain numbers: {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
-                       part(text, element.value)));
+                       part(text, value)));
   add_target_move(r.robot, line, *target, how);
   r.robot.program.moves.back().text_line = loop.motion.line;
 }
@@ -79,7 +79,7 @@ void read_declaration(KrlReading& r, const RobotLine& line) {
     const auto number = size ? whole_number(program.text, *size) : std::nullopt;
     if (!number) continue;
     program.counts.push_back(*size);
-    const long last = r.arrays.find(loop.array)->second.last;
+    const long last = r.list_follows ? loop.last : r.arrays.find(loop.array)->second.last;
     if (*number < last)
       refuse(
           program.file, line, size->begin,
@@ -125,17 +125,23 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   if (!loop) return false;
   // An array that the program itself assigns: its loop is not followed.
   if (!r.data_lists && r.named.contains(fmt::format("{}[{}]", loop->array, loop->first))) return false;
-  refuse_incomplete(r, *loop);
+  if (!r.list_follows) refuse_incomplete(r, *loop);
   r.loops.push_back(*loop);
   r.behind_loop = loop->end;
   r.robot.program.counts.push_back(loop->last_number);
   if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
   const TargetMove how = with_krl_zone(r, part(text, loop->motion.code), {});
+  if (r.list_follows) {
+    r.followed = KrlFollowedLoop{*loop, how};
+    return true;
+  }
   std::vector<Move>& moves = r.robot.program.moves;
   const std::size_t all = moves.size() + static_cast<std::size_t>(loop->last - loop->first + 1);
   if (all > moves.capacity()) moves.reserve(std::max(all, 2 * moves.capacity()));
-  for (long index = loop->first; index <= loop->last; ++index)
-    add_element_move(r, *loop, element_of(r, *loop, index), how);
+  for (long index = loop->first; index <= loop->last; ++index) {
+    const KrlNamed& element = element_of(r, *loop, index);
+    add_element_move(r, *loop, line_of(text, element), element.value, how);
+  }
   return true;
 }
 
@@ -144,6 +150,11 @@ void read_data_line(KrlReading& r, const RobotLine& line) {
   if (r.loops.empty() || part(text, line.code).find('[') == std::string_view::npos) return;
   const auto element = element_in(text, line);
   if (!element) return read_declaration(r, line);
+  if (r.followed) {
+    if (element->array == r.followed->loop.array)
+      add_element_move(r, r.followed->loop, line, element->value, r.followed->how);
+    return;
+  }
   for (const KrlLoop& loop : r.loops)
     if (loop.array == element->array && (element->index < loop.first || element->index > loop.last))
       r.robot.program.counts.push_back(element->index_text);

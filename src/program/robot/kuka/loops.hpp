@@ -8,6 +8,7 @@
 #include <string>
 #include <string_view>
 
+#include "counterflex/files/file_reader.hpp"
 #include "program/robot/kuka/lex.hpp"
 
 namespace counterflex {
@@ -26,6 +27,15 @@ struct KrlLoop {
 /// neither frame nor tool nor a target. `text` has the whole program. Throws `InputError` in `file` at a
 /// statement that changes an element.
 std::optional<KrlLoop> loop_over_array(std::string_view text, const std::string& file, const RobotLine& line);
+
+/// Where a program may be cut so that its data list follows the loop that uses it.
+struct KrlCut {
+  std::size_t at = 0;  ///< byte behind the line of ENDFOR
+  int line = 0;        ///< that begins there
+};
+
+/// Empty if the program is not as `join_files_by_motion` requires. Reads `list` to its end.
+std::optional<KrlCut> cut_behind_loop(std::string_view program, FileReader& list);
 
 /// The element of an array that a statement assigns, with a number as its index: "P[3] = {X 1}".
 struct KrlElement {
@@ -46,6 +56,9 @@ std::optional<Span> declared_size(std::string_view text, const RobotLine& line, 
 /// without one.
 std::size_t data_list_at(std::string_view text);
 
+/// The number of the line behind a mark of a list that follows its loop.
+std::optional<int> number_behind_mark(std::string_view code);
+
 /// The elements of an array that a text assigns.
 struct KrlArray {
   long first = 0, last = 0;
@@ -59,6 +72,18 @@ void add_elements(std::string_view lines, KrlArrays& arrays);
 /// Whether the routine with that name moves the robot, or may do so; false if `text` has a routine of that
 /// name without any motion before its data lists.
 bool may_move(std::string_view text, std::string_view routine);
+
+/// Counts the elements of an array on through the windows of a program: a target that was inserted has the
+/// index of the one behind it.
+struct KrlNumbering {
+  std::string array;           ///< in upper case
+  std::optional<long> next{};  ///< index of the next element; empty before the first
+
+  std::string numbered(std::string lines);
+};
+
+/// The array of a loop that a data list follows, if its FOR is in `window`.
+std::optional<KrlNumbering> numbering_in(std::string_view window);
 
 /// The text of a program after points were inserted: the indices of arrays with loops count on, and the sizes
 /// of these arrays and the ends of their loops change with them.

@@ -170,8 +170,11 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
   const std::string_view text = r.robot.program.text;
   const std::string& file = r.robot.program.file;
   if (text[line.code.begin] == '&') {  // attributes of the file
-    if (!part(text, line.code).starts_with(file_mark)) return;
-    r.in_data_list = true;
+    const bool back = part(text, line.code).starts_with(back_mark);
+    if (!back && !part(text, line.code).starts_with(file_mark)) return;
+    --r.robot.program.block_count;  // the line is in no file
+    r.in_data_list = !back;
+    r.behind_loop = 0;
     r.robot.program.counts.push_back({line.code.begin + file_mark.size(), line.code.end});
     return;
   }

@@ -17,6 +17,12 @@ struct KrlNamed {
   int line = 0;                      ///< of a data list
 };
 
+/// A loop whose data list follows it: its targets are read where they are in the text.
+struct KrlFollowedLoop {
+  KrlLoop loop;
+  TargetMove how;
+};
+
 struct KrlReading {
   RobotReading& robot;
   bool begun = false;                                    ///< DEF was read
@@ -25,11 +31,13 @@ struct KrlReading {
   std::string frame_data{};                              ///< right side of the last FDAT_ACT
   bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
   double zone_mm = 0;                                    ///< $APO.CDIS, of C_DIS; 0: not known
-  std::string why_not_followed{};  ///< why linear moves are not followed; empty if they are
-  const bool data_lists = false;   ///< they follow the program
-  const KrlArrays& arrays;         ///< of the data lists
-  std::vector<KrlLoop> loops{};    ///< over elements of these arrays
-  std::size_t behind_loop = 0;     ///< the statements before this byte are those of a loop
+  std::string why_not_followed{};   ///< why linear moves are not followed; empty if they are
+  const bool data_lists = false;    ///< they follow the program
+  const bool list_follows = false;  ///< the list follows the loop that uses it
+  std::optional<KrlFollowedLoop> followed{};
+  const KrlArrays& arrays;       ///< of the data lists
+  std::vector<KrlLoop> loops{};  ///< over elements of these arrays
+  std::size_t behind_loop = 0;   ///< the statements before this byte are those of a loop
   bool routine_ended = false;
   bool has_called = false;  ///< a routine that may change variables was called
   bool in_data_list = false;

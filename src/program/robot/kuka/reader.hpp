@@ -12,6 +12,7 @@ class KukaReader final : public RobotReader {
  private:
   void read_statement(const RobotLine& line) override { read_krl_statement(krl_, line); }
   void read_comment(const RobotLine& line) override;
+  bool next_line(RobotLine& line) const override;
 
   KrlReading krl_;
 };

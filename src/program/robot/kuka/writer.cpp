@@ -111,7 +111,11 @@ KukaWriter::KukaWriter(const Program& window, const WriteOptions& options)
 /// counted here.
 Rewritten KukaWriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
   Rewritten out = RobotWriter::write(window, edits);
-  if (out.inserted_blocks > 0) out.text = with_counted_arrays(std::move(out.text), window.file);
+  if (!numbering_) numbering_ = numbering_in(window.text);
+  if (numbering_)
+    out.text = numbering_->numbered(std::move(out.text));
+  else if (out.inserted_blocks > 0)
+    out.text = with_counted_arrays(std::move(out.text), window.file);
   return out;
 }
 

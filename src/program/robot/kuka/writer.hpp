@@ -3,6 +3,7 @@
 #include <functional>
 #include <map>
 
+#include "program/robot/kuka/loops.hpp"
 #include "program/robot/writer.hpp"
 
 namespace counterflex {
@@ -22,6 +23,7 @@ class KukaWriter final : public RobotWriter {
   void change_target(const Program& program, const Move& move, const TargetNumbers& numbers,
                      std::vector<TextChange>& changes) const override;
 
+  std::optional<KrlNumbering> numbering_{};                 ///< of a data list that follows its loop
   std::map<std::string, std::size_t, std::less<>> uses_{};  ///< of variables, if targets have names
 };
 

@@ -177,6 +177,24 @@ TEST_CASE("a target in no list is refused with its cure") {
   CHECK(refusal_of("DEF job()\nLIN XP9\nEND\n", loop_list).find("--data FILE.dat") != std::string::npos);
 }
 
+TEST_CASE("the size of an array grows where it is declared, and without a declaration nothing is inserted") {
+  const std::string list = replaced(loop_list, "DECL target POINTS[3]\n", "");
+  const auto with_point = [](const Program& program) {
+    std::vector<MoveEdit> edits = robot_edits(program);
+    edits[1].inserted.push_back({.end_mm = {5, 0, 5}, .orientation = program.moves[1].orientation->end});
+    return rewrite(program, edits, {}).text;
+  };
+  const std::string declaring = replaced(loop_program, "INT n\n", "INT n\nDECL target POINTS[3]\n");
+  CHECK(with_point(read_joined(declaring, list)).find("DECL target POINTS[4]\n") != std::string::npos);
+  const Program program = read_joined(loop_program, list);
+  CHECK(rewrite(program, robot_edits(program), {}).text == joined(loop_program, list));
+  CHECK(
+      diagnostic_of([&] { with_point(program); }) ==
+      "job.src:6:1: error: targets are inserted into the array POINTS, but neither the program nor its data "
+      "lists declare its size; give the list that declares it with --data FILE.dat, or allow a larger "
+      "--tolerance-mm");
+}
+
 TEST_CASE("a program with a list that is longer than what is read at once is one window") {
   std::string list = "DEFDAT job\nDECL target POINTS[8000]\n";
   for (int i = 1; i <= 8000; ++i)
