@@ -13,8 +13,11 @@ struct ProgramPart {
   std::string text;
 };
 
-/// Whether programs of `dialect` can be divided: FANUC TP and KUKA KRL.
+/// Whether programs of `dialect` can be divided: FANUC TP, KUKA KRL and ABB RAPID.
 bool can_be_divided(std::string_view dialect);
+
+/// Why they cannot; empty if they can.
+std::string_view why_not_divided(std::string_view dialect);
 
 /// Divides the program `text`, which is larger than `most` points, into parts NAME_1, NAME_2 ... with at most
 /// `most` points each. The first element is the main program NAME, which calls them in order. A part ends

@@ -50,14 +50,24 @@ void refuse_part(const std::string& file, const RobotLine& line, std::string_vie
 }
 
 bool can_be_divided(std::string_view dialect) {
-  return dialect == tp_name || dialect == kuka_name;
+  return why_not_divided(dialect).empty();
+}
+
+std::string_view why_not_divided(std::string_view dialect) {
+  if (dialect == tp_name || dialect == kuka_name || dialect == abb_name) return {};
+  if (dialect == ur_name) return "a URScript program cannot call one of another file";
+  if (dialect == apt_name) return "APT is the input of a post, which divides its output";
+  return "programs of this language are not divided into parts";
 }
 
 std::vector<ProgramPart> divide_program(const std::string& file, std::string_view dialect,
                                         const std::string& text, std::size_t most) {
-  const bool tp = dialect == tp_name;
-  std::vector<ProgramPart> parts = tp ? divide_tp(file, text, most) : divide_krl(file, text, most);
-  const bool same = tp ? joined_tp(file, parts) == joined_tp(file, {{"", text}}) : joined_krl(parts) == text;
+  const bool tp = dialect == tp_name, krl = dialect == kuka_name;
+  std::vector<ProgramPart> parts = tp    ? divide_tp(file, text, most)
+                                   : krl ? divide_krl(file, text, most)
+                                         : divide_rapid(file, text, most);
+  const bool same = tp ? joined_tp(file, parts) == joined_tp(file, {{"", text}})
+                       : (krl ? joined_krl(parts) : joined_rapid(parts)) == text;
   if (!same)
     throw InputError(ErrorKind::program_text, {file},
                      "the parts of the program are not the same as the program; leave out --max-points");

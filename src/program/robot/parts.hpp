@@ -24,11 +24,13 @@ std::vector<std::size_t> begins_of_parts(const std::string& file, std::string_vi
 /// The parts of a program in one of the languages.
 std::vector<ProgramPart> divide_tp(const std::string& file, const std::string& text, std::size_t most);
 std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& text, std::size_t most);
+std::vector<ProgramPart> divide_rapid(const std::string& file, const std::string& text, std::size_t most);
 
 /// The texts of /MN of FANUC programs without numbers and header, each P[n] as the content of its position;
-/// and the KRL program with the lines of the parts in the places of their calls. They are the same for a
-/// program and its parts.
+/// and the KRL program or RAPID module with the lines of the parts in the places of their calls. They are the
+/// same for a program and its parts.
 std::vector<std::string> joined_tp(const std::string& file, const std::vector<ProgramPart>& parts);
 std::string joined_krl(const std::vector<ProgramPart>& parts);
+std::string joined_rapid(const std::vector<ProgramPart>& parts);
 
 }  // namespace counterflex

@@ -37,7 +37,7 @@ void refuse_too_many_points(const std::string& file, std::string_view dialect, c
         fmt::format("the corrected program has {} {}, the first above --max-points {} here; {}post "
                     "several programs, or allow a larger --tolerance-mm",
                     points.after, counted, *most,
-                    divided ? "" : "programs of this language are not divided into parts: "));
+                    divided ? "" : fmt::format("{}: ", why_not_divided(dialect))));
   if (most || limit == nullptr || points.after <= limit->most || points.before > limit->most) return;
   throw InputError(
       ErrorKind::program_text, {file, points.first_line_beyond, 1},

@@ -121,6 +121,74 @@ TEST_CASE("a program whose statements depend on the main program is not divided"
     CHECK(krl_problem(statement).find("cannot be divided") != std::string::npos);
 }
 
+namespace {
+
+const std::string rapid_begin =
+    "%%%\n  VERSION:1\n%%%\nMODULE job\n! COUNTERFLEX 1 TEST\n"
+    "  CONST robtarget corner:=[[5,5,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+    "  LOCAL VAR num hidden:=3;\n"
+    "  PROC main()\n    VAR num n:=1;\n    ConfL\\Off;\n";
+const std::string rapid_end =
+    "    MoveAbsJ home,v100,fine,t;\n  ENDPROC\n  PROC other()\n  ENDPROC\nENDMODULE\n";
+
+std::string rapid_line(const std::string& head, int x, const std::string& zone = "z1") {
+  return "    " + head + " [[" + std::to_string(x) +
+         ",0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20," + zone + ",t; ! " + std::to_string(x) +
+         "\n";
+}
+
+const std::string rapid_body = rapid_line("MoveL", 1) + "    SetDO spindle,1;\n    ! side\n" +
+                               rapid_line("MoveL", 2) + rapid_line("MoveJ", 3) +
+                               "    MoveL corner,v20,z1,t;\n" + rapid_line("MoveL", 5);
+
+std::string rapid_problem(const std::string& statement) {
+  const std::string text =
+      rapid_begin + rapid_line("MoveL", 1) + "    " + statement + "\n" + rapid_line("MoveL", 2) + rapid_end;
+  return diagnostic_of([&] { divide_program("job.mod", "abb", text, 100); });
+}
+
+}  // namespace
+
+TEST_CASE("an ABB program is divided into modules with a routine each") {
+  const std::vector<ProgramPart> parts =
+      divide_program("job.mod", "abb", rapid_begin + rapid_body + rapid_end, 3);
+  REQUIRE(parts.size() == 3);
+  CHECK(parts[0].text == rapid_begin + "    run_job_1;\n    run_job_2;\n" + rapid_end);
+  const std::size_t cut = rapid_body.find("    MoveJ");
+  const std::string head = "%%%\n  VERSION:1\n%%%\nMODULE job_",
+                    header = "\n! COUNTERFLEX 1 TEST\n  PROC run_job_", tail = "  ENDPROC\nENDMODULE\n";
+  CHECK(parts[1].name == "job_1");
+  CHECK(parts[1].text == head + "1" + header + "1()\n" + rapid_body.substr(0, cut) + tail);
+  CHECK(parts[2].text == head + "2" + header + "2()\n" + rapid_body.substr(cut) + tail);
+  CHECK(read_program(parts[1].text, "job_1.mod", {}).moves.size() == 2);
+}
+
+TEST_CASE("an ABB program whose statements depend on their routine or module is not divided") {
+  for (const char* statement : {"count:=count+1;", "WaitTime 0.5;", "MoveJ corner,v100,z10,t;", "other;",
+                                "! comment", "SingArea\\Wrist;"})
+    CHECK(rapid_problem(statement) == "none");
+  CHECK(rapid_problem("n:=2;") ==
+        "job.mod:12:1: error: the program cannot be divided into parts: 'n:=2' needs data or a routine that "
+        "only the main module has; divide it where it was posted, or give --max-points a larger number");
+  CHECK(rapid_problem("WaitTime hidden;").find("only the main module has") != std::string::npos);
+  for (const char* statement : {"IF n=1 THEN", "RETURN;", "GOTO end;", "end:", "IF n=1 SetDO x,1;", "ERROR"})
+    CHECK(rapid_problem(statement).find("cannot be in another routine") != std::string::npos);
+  CHECK(diagnostic_of([] {
+          divide_program(
+              "job.mod", "abb",
+              rapid_begin + rapid_body + "  ENDPROC\n  PROC next()\n" + rapid_line("MoveL", 9) + rapid_end,
+              3);
+        }).find("a second routine has linear motions") != std::string::npos);
+}
+
+TEST_CASE("a language whose programs are not divided states why") {
+  CHECK(can_be_divided("abb"));
+  for (const char* dialect : {"ur", "apt", "yaskawa"}) {
+    CHECK(!can_be_divided(dialect));
+    CHECK(!why_not_divided(dialect).empty());
+  }
+}
+
 TEST_CASE("parts of KUKA programs have names of at most 24 characters") {
   const auto problem_of = [](const std::string& name) {
     const std::string begin = "DEF " + name + "( )\n";
