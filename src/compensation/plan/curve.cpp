@@ -90,4 +90,19 @@ std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector
   return choose_knots(at, curve.begin(), curve.end(), corners, tolerance);
 }
 
+std::vector<double> kept_from_ends(const CorrectionCurve& curve, const std::vector<double>& corners,
+                                   double tolerance, const std::vector<double>& knots, double first,
+                                   double last) {
+  const CorrectionAt at = [&curve](double u) { return curve.at(u); };
+  std::vector<double> moved;
+  double before = curve.begin();
+  for (const double knot : knots) {
+    const double u = knot < curve.end() ? std::clamp(knot, first, last) : knot;
+    if (u <= before) continue;
+    if (!stays_within({at, corners}, before, u, tolerance)) return knots;
+    moved.push_back(before = u);
+  }
+  return moved;
+}
+
 }  // namespace counterflex

@@ -54,4 +54,10 @@ std::vector<double> choose_knots(const CorrectionAt& at, double u0, double u1,
 std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
                                  double tolerance);
 
+/// `knots` of a curve with those before `first` and behind `last` moved there, but for the one at its end. If
+/// the lines between them would miss the tolerance, the knots stay.
+std::vector<double> kept_from_ends(const CorrectionCurve& curve, const std::vector<double>& corners,
+                                   double tolerance, const std::vector<double>& knots, double first,
+                                   double last);
+
 }  // namespace counterflex

@@ -3,9 +3,11 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
@@ -14,6 +16,15 @@ namespace {
 // beside it.
 constexpr double gain_probe = 50e-6;  // m
 constexpr double gain_margin = 1.01;
+
+// Fractions between which points are two zones away from the ends of the segment.
+std::pair<double, double> between_zones(const Job& job, const Segment& segment) {
+  const double length = (segment.wanted.end - segment.wanted.start).norm();
+  const auto twice = [&](const Move* move) {
+    return move != nullptr && move->zone ? 2 * move->zone->length_mm * mm / length : 0;
+  };
+  return {twice(move_before(job.program, segment.move)), 1 - twice(&job.program.moves[segment.move])};
+}
 
 }  // namespace
 
@@ -40,6 +51,9 @@ std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_
     const std::optional<double> room = room_between_points(job, segment, gain);
     if (!room) return few_decimals_failure(job.program.moves[segment.move], job.options);
     knots = choose_knots(stretch, corners, *room);
+    // Where that is not possible the zones become smaller.
+    const auto [first, last] = between_zones(job, segment);
+    if (first < last) knots = kept_from_ends(stretch, corners, *room, knots, first, last);
   }
   for (const double u : knots) planned.knots.push_back({command_at(job, segment, u, stretch.at(u)), u});
   return std::nullopt;
