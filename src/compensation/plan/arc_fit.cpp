@@ -118,6 +118,7 @@ class PieceFit {
     if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
     const Vector3 fitted = fitted_centre(best.read.arc ? best.read.end : end_);
     take_better(written(fitted), best);
+    if (task_.move.arc->through && best.read.arc) take_better(written(tilted(best)), best);
     if (!best.sound || best.miss_mm > task_.tolerance_mm) try_neighbours(fitted, best);
     return best;
   }
@@ -137,6 +138,14 @@ class PieceFit {
 
   static void take_better(const FittedArc& other, FittedArc& best) {
     if (other.sound != best.sound ? other.sound : other.miss_mm < best.miss_mm) best = other;
+  }
+
+  // The plane of an arc through a point is tilted until the point is at its commanded height.
+  Vector3 tilted(const FittedArc& fit) const {
+    const double v = share_of_point(task_.move, fit.read.arc->sweep);
+    const Vector3 &normal = task_.source.arc->normal,
+                  wanted = task_.commanded(piece_.u0 + v * (piece_.u1 - piece_.u0));
+    return *fit.via.centre_mm + normal * normal.dot(wanted - point_at(fit.read, v));
   }
 
   // The centre's own rounding may be what spoils the radii: the digits beside it.

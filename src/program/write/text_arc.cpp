@@ -1,5 +1,6 @@
 #include "program/write/text_arc.hpp"
 
+#include <Eigen/Geometry>
 #include <cmath>
 #include <numbers>
 
@@ -90,13 +91,16 @@ bool is_turned_around(const Move& move, const Curve& piece, const Via& via, Plac
   return piece.arc->sweep > most + angle_that_digits_may_add;
 }
 
-/// The auxiliary point, and the arc that a control reads through the rounded point.
+/// The auxiliary point, and the arc that a control reads through the rounded point. The height of the centre
+/// above the start, along the normal, is added to that of the point: it tilts the plane of the arc.
 std::optional<ArcWords> round_point(const Move& move, const Via& via, Place place,
                                     const WriteOptions& options, ArcWords words) {
   const ArcMove& arc = *move.arc;
   Curve wanted{words.curve.start, via.end_mm, Arc{*via.centre_mm, normal_of(arc), 0}};
   wanted.arc->sweep = sweep_of(arc, wanted.start, wanted.end, *via.centre_mm);
-  const Vector3 point = point_at(wanted, share_of_point(move, wanted.arc->sweep));
+  const Vector3 normal = normal_of(arc);
+  const Vector3 point = point_at(wanted, share_of_point(move, wanted.arc->sweep)) +
+                        normal * normal.dot(*via.centre_mm - words.curve.start);
   Vector3 written;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double unit = mm_per(move.unit);

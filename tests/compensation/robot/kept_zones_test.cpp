@@ -12,24 +12,24 @@ using namespace counterflex::test;
 
 namespace {
 
-struct WrittenTarget {
+struct RapidLine {
   Vector3 p_mm;
   std::string zone;
 };
 
 /// The targets of MoveL, in their order.
-std::vector<WrittenTarget> targets_of(const std::string& text) {
+std::vector<RapidLine> rapid_lines_in(const std::string& text) {
   const std::string n = "(-?[0-9.]+)";
   const std::regex pattern("MoveL \\[\\[" + n + "," + n + "," + n +
                            "\\][^\\n]*,v[0-9]+,(z[0-9]+|\\[[^\\]]*\\]),t");
-  std::vector<WrittenTarget> targets;
+  std::vector<RapidLine> targets;
   for (std::sregex_iterator at(text.begin(), text.end(), pattern), end; at != end; ++at)
     targets.push_back({{std::stod((*at)[1]), std::stod((*at)[2]), std::stod((*at)[3])}, (*at)[4]});
   return targets;
 }
 
 /// A line of 500 mm from a target with zone z10 to one with this zone, corrected.
-std::vector<WrittenTarget> corrected(const std::string& zone, double tolerance) {
+std::vector<RapidLine> corrected_line(const std::string& zone, double tolerance) {
   const auto target = [&](double x, double y, const std::string& of_target) {
     return fmt::format(
         "[[{:.3f},{:.3f},600.000],[1.000000,0.000000,0.000000,0.000000],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],"
@@ -44,12 +44,12 @@ std::vector<WrittenTarget> corrected(const std::string& zone, double tolerance) 
   order.max_correction = 20e-3;
   order.tolerance = tolerance;
   order.read.dialect = "abb";
-  const std::vector<WrittenTarget> targets = targets_of(compensated(Shop(order)).text);
+  const std::vector<RapidLine> targets = rapid_lines_in(compensated(Shop(order)).text);
   REQUIRE(targets.size() == 5);  // one before the force is at its full size, one on the long line
   return targets;
 }
 
-double zone_of(const WrittenTarget& target) {
+double zone_length(const RapidLine& target) {
   return std::stod(target.zone.substr(1));
 }
 
@@ -58,16 +58,16 @@ double zone_of(const WrittenTarget& target) {
 TEST_CASE("a point is inserted two zones away from the target of a long line, and the zone stays") {
   for (const std::string zone : {"z10", "z100", "z150"}) {
     CAPTURE(zone);
-    const std::vector<WrittenTarget> targets = corrected(zone, 8e-6);
-    const WrittenTarget &inserted = targets[2], &end = targets[3];
+    const std::vector<RapidLine> targets = corrected_line(zone, 8e-6);
+    const RapidLine &inserted = targets[2], &end = targets[3];
     CHECK(end.zone == zone);
-    CHECK((end.p_mm - inserted.p_mm).norm() >= 2 * zone_of(end) - 1e-3);
-    CHECK((targets[1].p_mm - inserted.p_mm).norm() >= 2 * zone_of(targets[1]));
+    CHECK((end.p_mm - inserted.p_mm).norm() >= 2 * zone_length(end) - 1e-3);
+    CHECK((targets[1].p_mm - inserted.p_mm).norm() >= 2 * zone_length(targets[1]));
   }
 }
 
 TEST_CASE("where a point must be inserted within two zones of a target the zone becomes smaller") {
-  const std::vector<WrittenTarget> targets = corrected("z200", 5e-6);
+  const std::vector<RapidLine> targets = corrected_line("z200", 5e-6);
   CHECK(targets[3].zone != "z200");
-  CHECK((targets[3].p_mm - targets[2].p_mm).norm() >= 2 * zone_of(targets[3]));
+  CHECK((targets[3].p_mm - targets[2].p_mm).norm() >= 2 * zone_length(targets[3]));
 }

@@ -110,6 +110,7 @@ std::vector<StatementFault> jbi_faults() {
   return {{"count of positions", "NPOS [0-9]+", "NPOS 8"},
           {"count of base positions", "(NPOS [0-9]+),[0-9]+", "$1,8"},
           {"configuration changed", "RCONF 1", "RCONF 0"},
+          {"numbers of a configuration exchanged", "RCONF 1,0", "RCONF 0,1"},
           {"another tool", "TOOL 2", "TOOL 1"},
           {"another frame", "USER 1", "USER 2"},
           {"another type of frame", "POSTYPE USER", "POSTYPE BASE"},

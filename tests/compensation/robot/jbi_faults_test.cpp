@@ -1,0 +1,81 @@
+// Faults in jobs of Yaskawa that the seeded ones do not have.
+#include <doctest/doctest.h>
+
+#include <algorithm>
+#include <regex>
+
+#include "compensation/robot/written_programs.hpp"
+#include "compensation/support/arm.hpp"
+
+using namespace counterflex;
+using namespace counterflex::test;
+
+namespace {
+
+Order jbi_order(const std::string& text) {
+  Order order{.machine = arm_machine(), .text = text};
+  order.force = constant_force((Vector6() << 120, -300, -80, 2, 5, -3).finished());
+  order.max_correction = 20e-3;
+  order.X_MW = translation({1.7, 0, 0.6});
+  order.read.dialect = "yaskawa";
+  return order;
+}
+
+std::string failure_of_job(const Shop& shop, const std::string& text) {
+  try {
+    const auto failure = verify(shop.job(), read_program(text, "corrected", shop.read), false).failure;
+    return failure ? failure->what : "";
+  } catch (const InputError& error) {
+    return error.what();
+  }
+}
+
+}  // namespace
+
+namespace {
+
+/// The largest deviation inside of the circle, whose MOVC ends in this line, across its plane (mm).
+double miss_of_circle(const Shop& shop, const std::string& text, int line) {
+  const Vector3 normal = Vector3(30, 30, -5).cross(Vector3(60, 0, -5)).normalized();
+  double largest = 0;
+  const Program program = read_program(text, "corrected", shop.read);
+  for (const Waypoint& w : verify(shop.job(), program, false).waypoints)
+    if (w.line == line) largest = std::max(largest, std::abs(normal.dot(w.after.head<3>())) / mm);
+  return largest;
+}
+
+}  // namespace
+
+TEST_CASE("the point inside of a circle is at the height of the corrected circle there") {
+  const std::string source = jbi_text();
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  const std::string_view before = std::string_view(source).substr(0, source.find("FPT"));
+  const int line = 1 + static_cast<int>(std::ranges::count(before, '\n'));
+  const double miss = miss_of_circle(shop, text, line);
+  CHECK(miss > 0);
+  CHECK(miss < 0.0015);  // digits of 0.001 mm
+  const std::regex point("(\nC[0-9]{5}=(?:89|90)\\.[0-9]+,(?:89|90)\\.[0-9]+),(-?[0-9.]+)");
+  std::smatch place;
+  REQUIRE(std::regex_search(text, place, point));
+  for (const double off : {0.03, -0.03}) {
+    const std::string changed = place.prefix().str() + place[1].str() +
+                                fmt::format(",{:.3f}", std::stod(place[2]) + off) + place.suffix().str();
+    CHECK(miss_of_circle(shop, changed, line) > 0.02);
+  }
+}
+
+TEST_CASE("configurations of two positions must not be exchanged") {
+  const std::string one = "///RCONF 1,0,0,0,0,0,0,0\n", other = "///RCONF 0,0,0,0,0,0,0,0\n";
+  std::string source = jbi_text();
+  source.insert(source.find("C00003="), other);
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  REQUIRE(failure_of_job(shop, text) == "");
+  std::string changed = replaced(text, one, "///RCONF ?\n");
+  changed = replaced(changed, other, one);
+  changed = replaced(changed, "///RCONF ?\n", other);
+  CHECK(failure_of_job(shop, changed) != "");
+  CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0", "RCONF 1,1,0")) != "");
+  CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0,0", "RCONF 0,0,1,0")) != "");
+}
