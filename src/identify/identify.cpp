@@ -18,6 +18,7 @@ namespace {
 
 // Standard deviations of parameters for which a machine file states none.
 constexpr double default_position = 1 * mm, default_orientation = 0.1 * deg, default_share = 1;  // of a value
+constexpr double default_reversal = 20 * um, default_reversal_angle = 0.01 * deg;
 constexpr double least_share = 1e-3;  // of a compliance or mass: the lower bound of the fit
 constexpr double identified = 0.5;    // of the prior deviation: larger ones are not identified
 constexpr double strong_correlation = 0.9;
@@ -73,6 +74,7 @@ struct Candidates {
 ParameterSet set_of(const Parameter& parameter, bool is_zero) {
   if (parameter.kind == ParameterKind::compliance) return ParameterSet::compliance;
   if (parameter.kind == ParameterKind::mass) return ParameterSet::mass;
+  if (parameter.kind == ParameterKind::reversal) return ParameterSet::reversal;
   return is_zero ? ParameterSet::zeros : ParameterSet::geometry;
 }
 
@@ -80,17 +82,27 @@ ParameterSet set_of(const Parameter& parameter, bool is_zero) {
 double default_prior(const Parameter& parameter) {
   if (parameter.kind == ParameterKind::position) return default_position;
   if (parameter.kind == ParameterKind::orientation) return default_orientation;
+  if (parameter.kind == ParameterKind::reversal)
+    return parameter.unit == um ? default_reversal : default_reversal_angle;
   return default_share * parameter.value;
 }
 
-Candidates candidates(const Machine& machine, const std::vector<ParameterSet>& sets) {
+bool has_directions(const Measurements& measurements) {
+  for (const Measurement& row : measurements.rows)
+    for (const CommandedState& state : row.states)
+      if (state.directions != Directions{}) return true;
+  return false;
+}
+
+Candidates candidates(const Machine& machine, const Measurements& measurements,
+                      const std::vector<ParameterSet>& sets) {
   Candidates result;
   const std::vector<Parameter> all = parameters(machine);
   const std::vector<bool> zeros = zeros_of(machine);
   std::vector<double> before, prior, least;
+  const bool shows_reversal = has_directions(measurements);
   for (std::size_t i = 0; i < all.size(); ++i) {
-    // Rows do not state the direction from which a position was reached.
-    if (all[i].kind == ParameterKind::reversal) continue;
+    if (all[i].kind == ParameterKind::reversal && !shows_reversal) continue;
     const ParameterSet set = set_of(all[i], zeros[i]);
     if (!is_in(set, sets)) continue;
     const auto stated = std::find_if(machine.parameters.begin(), machine.parameters.end(),
@@ -102,8 +114,9 @@ Candidates candidates(const Machine& machine, const std::vector<ParameterSet>& s
     result.is_default.push_back(!has_sigma);
     before.push_back(all[i].value);
     prior.push_back(has_sigma ? *stated->sigma : default_prior(all[i]));
-    least.push_back(is_geometry(all[i].kind) ? -std::numeric_limits<double>::infinity()
-                                             : least_share * all[i].value);
+    least.push_back(is_geometry(all[i].kind)                 ? -std::numeric_limits<double>::infinity()
+                    : all[i].kind == ParameterKind::reversal ? 0
+                                                             : least_share * all[i].value);
   }
   const auto n = static_cast<Eigen::Index>(before.size());
   result.before = Eigen::Map<Eigen::VectorXd>(before.data(), n);
@@ -154,6 +167,8 @@ std::optional<double> repeatability_of(const Measurements& measurements) {
   for (const Measurement& row : measurements.rows) {
     std::vector<long> state;
     for (const CommandedState& at : row.states) {
+      state.push_back(static_cast<long>(at.directions.forward));
+      state.push_back(static_cast<long>(at.directions.backward));
       for (const double value : at.shown) state.push_back(std::lround(value * 1e6));
       for (const double value : at.F) state.push_back(std::lround(value * 1e3));
     }
@@ -161,7 +176,7 @@ std::optional<double> repeatability_of(const Measurements& measurements) {
     same[{row.session, state}].push_back(&row);
   }
   for (const auto& [key, rows] : same) {
-    if (rows.size() < 2 || measurements.sessions[key.first].kind == MeasurementKind::squareness) continue;
+    if (rows.size() < 2 || !rows[0]->is_length) continue;
     Vector3 mean = Vector3::Zero();
     double value = 0;
     for (const Measurement* row : rows) {
@@ -346,21 +361,22 @@ void add_held_out(const Ladder& ladder, const FitProblem& problem, const std::ve
                   std::vector<HeldOutGroup>& list) {
   const std::vector<RowErrors> before = ladder.errors({}), after = ladder.errors(kept);
   for (std::size_t g = 0; g < before.size(); ++g) {
-    std::map<MeasurementKind, std::array<std::vector<double>, 4>> kinds;
+    std::map<std::pair<MeasurementKind, bool>, std::array<std::vector<double>, 4>> kinds;
     const auto add = [&](const RowErrors& errors, std::size_t at) {
       std::size_t angle = 0;
       for (std::size_t k = 0; k < errors.rows.size(); ++k) {
-        const MeasurementKind kind =
-            problem.measurements.sessions[problem.measurements.rows[errors.rows[k]].session].kind;
-        kinds[kind][at].push_back(errors.distance[k]);
-        if (kind == MeasurementKind::tracker_pose) kinds[kind][at + 2].push_back(errors.angle[angle++]);
+        const Measurement& row = problem.measurements.rows[errors.rows[k]];
+        const MeasurementKind kind = problem.measurements.sessions[row.session].kind;
+        auto& lists = kinds[{kind, row.is_length}];
+        lists[at].push_back(errors.distance[k]);
+        if (kind == MeasurementKind::tracker_pose) lists[at + 2].push_back(errors.angle[angle++]);
       }
     };
     add(before[g], 0);
     add(after[g], 1);
     for (auto& [kind, all] : kinds)
-      list.push_back({ladder.groups()[g].name, kind, summary(all[0]), summary(all[1]), summary(all[2]),
-                      summary(all[3])});
+      list.push_back({ladder.groups()[g].name, kind.first, kind.second, summary(all[0]), summary(all[1]),
+                      summary(all[2]), summary(all[3])});
   }
 }
 
@@ -429,7 +445,7 @@ void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result
     if (row.weight == 0 || !row.at.is_found)
       result.outliers.push_back(
           {measured.at, problem.measurements.sessions[row.session].name, error, ratio(row)});
-    else if (problem.measurements.sessions[row.session].kind != MeasurementKind::squareness) {
+    else if (measured.is_length) {
       squares += error * error;
       ++count;
     }
@@ -453,7 +469,7 @@ Identification identify(const Machine& machine, const Measurements& measurements
   check_sessions(measurements);
   const Model model = prepare(machine);
   const States states = nominal_states(model, measurements, options.threads);
-  const Candidates candidate = candidates(machine, options.sets);
+  const Candidates candidate = candidates(machine, measurements, options.sets);
   if (candidate.varied.empty())
     throw InputError(ErrorKind::machine_or_force, {},
                      "the machine file has no parameter of the sets to fit; add error slots or compliances");

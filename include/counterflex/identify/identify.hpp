@@ -15,6 +15,7 @@ enum class ParameterSet {
   geometry,  ///< all components of errors
   compliance,
   mass,
+  reversal,  ///< lost motion of actuators; rows need directions of motion
 };
 
 /// Which rows test a fit that was made without them.
@@ -26,7 +27,8 @@ enum class HoldOut {
 };
 
 struct IdentifyOptions {
-  std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance};
+  std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance,
+                                    ParameterSet::reversal};
   HoldOut hold_out = HoldOut::automatic;
   bool ladder = true;  ///< a set stays only where held-out rows improve
   int threads = 1;
@@ -44,7 +46,7 @@ struct IdentifiedParameter {
   bool is_identified = false;     ///< the data have more than halved its deviation
 };
 
-/// Errors of rows: distances, gauge readings in m; angles in rad.
+/// Errors of rows: distances, gauge readings in m; angles in rad; scales in m/m.
 struct ErrorSummary {
   std::size_t count = 0;
   double mean = 0, rms = 0, p95 = 0, largest = 0;
@@ -54,6 +56,7 @@ struct ErrorSummary {
 struct HeldOutGroup {
   std::string name;  ///< session, region or part
   MeasurementKind kind = MeasurementKind::tracker_point;
+  bool is_length = true;  ///< of `before` and `after`
   ErrorSummary before, after;
   ErrorSummary angle_before, angle_after;  ///< of orientations; count 0: none
 };

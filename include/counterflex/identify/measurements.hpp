@@ -1,42 +1,60 @@
 #pragma once
 /// Measurements of a real machine: what was commanded, what acted, what a gauge or a tracker read.
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/statics/directions.hpp"
 
 namespace counterflex {
 
 enum class MeasurementKind {
-  tracker_point,  ///< position of a target on the flange or the tool, in the tracker's frame
-  tracker_pose,   ///< position and orientation of a probe, in the tracker's frame
-  static_push,    ///< motion of the tip along a direction under a force
-  hung_weight,    ///< the same under a mass that hangs at the tip
-  plane_contact,  ///< the tip touches a plane
-  length_bar,     ///< the tip is at one end of a bar, then at the other
-  squareness,     ///< of two linear axes
-  axis_position,  ///< tip along a direction, less the commanded one: the error of an axis at a position
+  tracker_point,   ///< position of a target on the flange or the tool, in the tracker's frame
+  tracker_pose,    ///< position and orientation of a probe, in the tracker's frame
+  static_push,     ///< motion of the tip along a direction under a force
+  hung_weight,     ///< the same under a mass that hangs at the tip
+  plane_contact,   ///< the tip touches a plane
+  length_bar,      ///< the tip is at one end of a bar, then at the other
+  squareness,      ///< of two linear axes
+  axis_position,   ///< tip along a direction, less the commanded one: the error of an axis at a position
+  axis_table,      ///< motion of one axis, less the commanded one (ISO 230-2)
+  reversal,        ///< lost motion of one axis at the tip
+  scale,           ///< motion of a linear axis over the commanded one, less 1
+  clamped_torque,  ///< turn of a rotary axis under a torque, the flange clamped
+  ballbar,         ///< numbers of a ball bar's report; its rows become squareness, reversal and scale
 };
 
 /// How files and people name a kind: "tracker_point".
 std::string_view name_of(MeasurementKind kind);
 
+/// The flange is clamped, and one actuator turns against its compliance.
+struct ClampedTorque {
+  std::size_t actuator = 0;
+  double torque = 0;  ///< N m, in the direction of the shown value
+};
+
 /// The commanded actuator values, and the wrench on the tip.
 struct CommandedState {
   Eigen::VectorXd shown;        ///< by actuator, as the control shows them (m, rad)
   Vector6 F = Vector6::Zero();  ///< on the tip, axes of M (N, N m)
+  Directions directions{};      ///< in which the actuators moved last
+  std::optional<ClampedTorque> clamped{};
 };
 
 struct Measurement {
-  std::size_t session = 0;               ///< index into `Measurements::sessions`
-  Location at;                           ///< of its row
-  std::vector<CommandedState> states{};  ///< one; two of a push, a weight or a bar; four of a squareness
-  Pose X{};                              ///< tracker: measured, in the session's frame
-  Vector3 direction = Vector3::Zero();   ///< of the gauge, unit vector, axes of M
-  double value = 0;                      ///< m, a squareness in rad
-  double sigma = 0;                      ///< standard deviation (m; a squareness in rad)
-  double sigma_angle = 0;                ///< of an orientation (rad)
+  std::size_t session = 0;  ///< index into `Measurements::sessions`
+  Location at;              ///< of its row
+  /// One; two of a push, a weight, a bar, a reversal (after a positive, a negative motion) or a scale; four
+  /// of a squareness.
+  std::vector<CommandedState> states{};
+  Pose X{};                             ///< tracker: measured, in the session's frame
+  Vector3 direction = Vector3::Zero();  ///< of the gauge, or along or about the axis; unit vector in M
+  bool is_length = true;                ///< of value and sigma
+  double value = 0;                     ///< m; else rad, or m/m of a scale
+  double sigma = 0;                     ///< standard deviation of value
+  double sigma_angle = 0;               ///< of an orientation (rad)
 };
 
 /// Rows that share their unknown frames: one set-up of a tracker, one plane.

@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+#include <array>
 #include <filesystem>
 
 #include "commands/commands.hpp"
@@ -21,22 +23,20 @@ constexpr std::string_view mark = "# Identified by counterflex";
 constexpr std::string_view report_mark = "counterflex-identification 1",
                            page_mark = "counterflex identification";
 
-/// "zeros,geometry,compliance,mass". Throws (ErrorKind::usage).
+/// "zeros,geometry,compliance,mass,reversal", in the order of ParameterSet. Throws (ErrorKind::usage).
 std::vector<ParameterSet> sets_of(const std::string& text) {
   std::vector<ParameterSet> sets;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
-    const ParameterSet set = name == "zeros"        ? ParameterSet::zeros
-                             : name == "geometry"   ? ParameterSet::geometry
-                             : name == "compliance" ? ParameterSet::compliance
-                             : name == "mass"
-                                 ? ParameterSet::mass
-                                 : throw InputError(ErrorKind::usage, {},
-                                                    fmt::format("--fit has '{}'; use a list of zeros, "
-                                                                "geometry, compliance and mass",
-                                                                name));
-    sets.push_back(set);
+    constexpr std::array names = {"zeros", "geometry", "compliance", "mass", "reversal"};
+    const auto found = std::find(names.begin(), names.end(), name);
+    if (found == names.end())
+      throw InputError(ErrorKind::usage, {},
+                       fmt::format("--fit has '{}'; use a list of zeros, geometry, compliance, mass and "
+                                   "reversal",
+                                   name));
+    sets.push_back(static_cast<ParameterSet>(found - names.begin()));
     begin = end + 1;
   }
   return sets;

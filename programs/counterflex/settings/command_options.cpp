@@ -337,7 +337,7 @@ void add_identify(CLI::App& app, Options& options) {
       ->type_name("FILE")
       ->allow_extra_args(false);
   value_option(command, "--fit", "LIST",
-               "What is fitted: zeros, geometry, compliance, mass (default: the first three)",
+               "What is fitted: zeros, geometry, compliance, mass, reversal (default: all but mass)",
                [&](const std::string& text) { options.identify.fit = text; });
   value_option(
       command, "--hold-out", "session|region|20%",

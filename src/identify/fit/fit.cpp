@@ -85,7 +85,7 @@ std::vector<LinearRow> linearise(const FitProblem& problem, const Eigen::VectorX
     const Measurement& row = problem.measurements.rows[i];
     const std::size_t first = problem.states.first[i];
     rows.push_back({residual(row, problem.measurements.sessions[row.session].kind, frames[row.session],
-                             &found[first], problem.X_MT_nominal[first]),
+                             &found[first], &problem.X_MT_nominal[first]),
                     row.session});
   }
   return rows;

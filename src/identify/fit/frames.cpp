@@ -127,6 +127,8 @@ SessionFrames first_frames(const Session& session, const std::vector<const Measu
       return tracker_frames(session, rows, X_MT);
     case MeasurementKind::plane_contact:
       return plane_frames(X_MT);
+    case MeasurementKind::clamped_torque:
+      return {Pose{}, Pose{}, rows[rows.size() / 2]->value};
     default:
       return {};
   }

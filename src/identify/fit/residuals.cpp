@@ -73,6 +73,35 @@ RowResidual squareness(const Measurement& row, const Response* at) {
   return scalar(row, predicted, -d_cosine / sine);
 }
 
+/// How far the tip is from its nominal place along a linear axis, or about a rotary one (m, rad).
+struct AxisError {
+  double value;
+  Eigen::RowVectorXd tangents;
+};
+
+AxisError axis_error(const Measurement& row, const Response& at, const Pose& X_MT_nominal, bool turns) {
+  const Eigen::RowVector3d axis = row.direction.transpose();
+  if (!turns) return {axis * (at.X_MT.p - X_MT_nominal.p), axis * at.tangents.topRows<3>()};
+  const Vector3 turned = log_so3(at.X_MT.R * X_MT_nominal.R.transpose());
+  return {axis * turned, axis * left_jacobian_inverse(turned) * at.tangents.bottomRows<3>()};
+}
+
+/// A row with an unknown offset of its session.
+RowResidual with_offset(const Measurement& row, double predicted, const Eigen::RowVectorXd& J_p,
+                        const SessionFrames& frames) {
+  RowResidual out = scalar(row, predicted + frames.offset, J_p);
+  out.J_s(0, 12) = 1 / row.sigma;
+  return out;
+}
+
+RowResidual scale(const Measurement& row, const Response* at, const Pose* X_MT_nominal) {
+  const Vector3 moved = at[1].X_MT.p - at[0].X_MT.p;
+  const double commanded = (X_MT_nominal[1].p - X_MT_nominal[0].p).norm();
+  const Eigen::RowVector3d direction = moved.normalized().transpose() / commanded;
+  return scalar(row, moved.norm() / commanded - 1,
+                direction * (at[1].tangents.topRows<3>() - at[0].tangents.topRows<3>()));
+}
+
 }  // namespace
 
 std::vector<int> unknowns_of(MeasurementKind kind) {
@@ -84,6 +113,8 @@ std::vector<int> unknowns_of(MeasurementKind kind) {
     case MeasurementKind::plane_contact:
       return {2, 3, 4};
     case MeasurementKind::axis_position:
+    case MeasurementKind::axis_table:
+    case MeasurementKind::clamped_torque:
       return {12};
     default:
       return {};
@@ -96,7 +127,7 @@ SessionFrames moved(const SessionFrames& frames, const Eigen::Matrix<double, ses
 }
 
 RowResidual residual(const Measurement& row, MeasurementKind kind, const SessionFrames& frames,
-                     const Response* at, const Pose& X_MT_nominal) {
+                     const Response* at, const Pose* X_MT_nominal) {
   for (std::size_t k = 0; k < row.states.size(); ++k)
     if (at[k].status != Status::converged) {
       RowResidual none;
@@ -118,12 +149,24 @@ RowResidual residual(const Measurement& row, MeasurementKind kind, const Session
     case MeasurementKind::hung_weight:
       return scalar(row, row.direction.dot(at[0].X_MT.p - at[1].X_MT.p),
                     row.direction.transpose() * (at[0].tangents.topRows<3>() - at[1].tangents.topRows<3>()));
-    case MeasurementKind::axis_position: {
-      RowResidual out = scalar(row, row.direction.dot(at[0].X_MT.p - X_MT_nominal.p) + frames.offset,
-                               row.direction.transpose() * at[0].tangents.topRows<3>());
-      out.J_s(0, 12) = 1 / row.sigma;
-      return out;
+    case MeasurementKind::axis_position:
+      return with_offset(row, row.direction.dot(at[0].X_MT.p - X_MT_nominal[0].p),
+                         row.direction.transpose() * at[0].tangents.topRows<3>(), frames);
+    case MeasurementKind::axis_table: {
+      const AxisError error = axis_error(row, at[0], X_MT_nominal[0], !row.is_length);
+      return with_offset(row, error.value, error.tangents, frames);
     }
+    case MeasurementKind::reversal: {
+      const AxisError up = axis_error(row, at[0], X_MT_nominal[0], !row.is_length),
+                      down = axis_error(row, at[1], X_MT_nominal[1], !row.is_length);
+      return scalar(row, down.value - up.value, down.tangents - up.tangents);
+    }
+    case MeasurementKind::scale:
+      return scale(row, at, X_MT_nominal);
+    case MeasurementKind::clamped_torque:
+      return with_offset(row, at[0].turn, at[0].turn_tangents, frames);
+    case MeasurementKind::ballbar:
+      break;
   }
   return {};
 }

@@ -32,8 +32,8 @@ struct RowResidual {
   bool is_found = true;  ///< false: the machine has no equilibrium there
 };
 
-/// `at` are the responses of the row's states. `X_MT_nominal` is the nominal tip at its first state.
+/// `at` are the responses of the row's states, `X_MT_nominal` the nominal tips there.
 RowResidual residual(const Measurement& row, MeasurementKind kind, const SessionFrames& frames,
-                     const Response* at, const Pose& X_MT_nominal);
+                     const Response* at, const Pose* X_MT_nominal);
 
 }  // namespace counterflex

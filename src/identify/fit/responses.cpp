@@ -7,6 +7,7 @@
 #include "counterflex/files/parallel.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
+#include "identify/fit/clamped.hpp"
 
 namespace counterflex {
 namespace {
@@ -21,6 +22,38 @@ std::string shown_words(const Model& model, const Eigen::VectorXd& shown) {
   }
   return text;
 }
+
+/// The sign of the tangent by each varied parameter: of a reversal that of its actuator's direction.
+class Signs {
+ public:
+  Signs(const Machine& machine, const std::vector<std::size_t>& varied) {
+    std::vector<std::size_t> reversing;
+    const std::vector<Actuator> all = actuators(machine);
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].reversal) reversing.push_back(i);
+    std::size_t next = 0;
+    const std::vector<Parameter> listed = parameters(machine);
+    std::vector<std::size_t> actuator_of(listed.size());
+    for (std::size_t k = 0; k < listed.size(); ++k)
+      if (listed[k].kind == ParameterKind::reversal) actuator_of[k] = reversing[next++];
+    for (std::size_t k = 0; k < varied.size(); ++k) {
+      if (listed[varied[k]].kind == ParameterKind::reversal)
+        reversals_.emplace_back(k, actuator_of[varied[k]]);
+      is_compliance_.push_back(listed[varied[k]].kind == ParameterKind::compliance);
+    }
+  }
+
+  void apply(const Directions& directions, Eigen::Matrix<double, 6, Eigen::Dynamic>& tangents) const {
+    for (const auto& [column, actuator] : reversals_)
+      tangents.col(static_cast<Eigen::Index>(column)) *= directions.of(actuator);
+  }
+
+  const std::vector<bool>& is_compliance() const { return is_compliance_; }
+
+ private:
+  std::vector<std::pair<std::size_t, std::size_t>> reversals_;  ///< column, actuator
+  std::vector<bool> is_compliance_;
+};
 
 }  // namespace
 
@@ -56,22 +89,36 @@ std::vector<Response> responses(const Machine& machine, const std::vector<std::s
                                 const States& states, int threads, std::vector<Configuration>& loaded) {
   const Model model = prepare(machine);
   const ParameterTangents tangents(machine, model, varied);
+  const Signs signs(machine, varied);
   std::vector<Response> found(states.state.size());
   const bool has_starts = !loaded.empty();
   loaded.resize(states.state.size());
   for_each_index((found.size() + slice - 1) / slice, threads, [&](std::size_t s) {
     StaticsWork work(model.mechanism), tangent_work = tangents.work();
     for (std::size_t i = s * slice; i < std::min((s + 1) * slice, found.size()); ++i) {
-      const Load load{states.state[i]->F, false};
+      const CommandedState& state = *states.state[i];
+      const Load load{state.F, false};
+      // Joints lag behind the commanded values.
+      Eigen::VectorXd joints = actuator_values(model.mechanism, states.nominal[i]);
+      if (has_reversals(model)) joints += lag_of(model.mechanism, state.directions);
       Equilibrium equilibrium;
-      if (has_starts) equilibrium = refine_forward(model, loaded[i], load, Stage{}, work);
-      if (equilibrium.status != Status::converged)
-        equilibrium = solve_forward(model, states.nominal[i], load, Stage{}, work);
+      if (has_starts) {
+        set_actuator_values(model.mechanism, joints, loaded[i]);
+        equilibrium = refine_forward(model, loaded[i], load, Stage{}, work);
+      }
+      if (equilibrium.status != Status::converged) {
+        const NominalResult lagging = nominal_forward(model, states.nominal[i], joints);
+        equilibrium = solve_forward(model, lagging.configuration, load, Stage{}, work);
+      }
       found[i].status = equilibrium.status;
       loaded[i] = equilibrium.status == Status::converged ? equilibrium.configuration : states.nominal[i];
       if (equilibrium.status != Status::converged) continue;
       found[i].X_MT = tip(model.mechanism, equilibrium.configuration);
       found[i].tangents = tangents.of_tip(equilibrium.configuration, load, tangent_work);
+      signs.apply(state.directions, found[i].tangents);
+      if (state.clamped)
+        fill_clamped(model, equilibrium.configuration, *state.clamped, {tangents, signs.is_compliance()},
+                     work, tangent_work, found[i]);
     }
   });
   return found;

@@ -24,6 +24,10 @@ struct Response {
   Status status = Status::not_converged;
   Pose X_MT;
   Eigen::Matrix<double, 6, Eigen::Dynamic> tangents;
+  /// Of a clamped state: how far the torque turns its actuator (rad), and the tangents of that by
+  /// compliances.
+  double turn = 0;
+  Eigen::RowVectorXd turn_tangents;
 };
 
 /// By state. `loaded` are the equilibria found before, empty at first; they are starts, and are replaced.

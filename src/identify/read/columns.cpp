@@ -17,17 +17,20 @@ struct Unit {
 };
 
 constexpr std::array lengths = {Unit{"mm", mm}, Unit{"m", 1}, Unit{"um", um}, Unit{"in", inch}};
-constexpr std::array angles = {Unit{"deg", deg}, Unit{"rad", 1}, Unit{"mrad", 1e-3}};
+constexpr std::array angles = {Unit{"deg", deg}, Unit{"rad", 1}, Unit{"mrad", 1e-3}, Unit{"mdeg", 1e-3 * deg},
+                               Unit{"arcsec", deg / 3600}};
 constexpr std::array forces = {Unit{"N", 1}, Unit{"kN", 1e3}};
 constexpr std::array moments = {Unit{"Nm", 1}};
 constexpr std::array masses = {Unit{"kg", 1}};
 constexpr std::array slopes = {Unit{"um_per_m", 1e-6}, Unit{"mrad", 1e-3}, Unit{"deg", deg},
                                Unit{"arcsec", deg / 3600}};
+constexpr std::array scales = {Unit{"um_per_m", 1e-6}, Unit{"ppm", 1e-6}};
 constexpr std::array none = {Unit{"", 1}};
 
 struct Kind {
   std::vector<std::string_view> names;
   std::vector<Unit> units;
+  bool is_angle = false;
 };
 
 template <std::size_t N>
@@ -37,13 +40,16 @@ std::vector<Unit> list(const std::array<Unit, N>& units) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      {{"x", "y", "z", "reading", "length", "sigma"}, list(lengths)},
-      {{"rx", "ry", "rz", "sigma_angle"}, list(angles)},
+      {{"x", "y", "z", "reading", "length", "radius", "sigma"}, list(lengths)},
+      {{"rx", "ry", "rz", "sigma_angle"}, list(angles), true},
+      {{"position", "deviation", "reversal"}, list(lengths)},
+      {{"position", "deviation", "reversal"}, list(angles), true},
       {{"fx", "fy", "fz"}, list(forces)},
-      {{"mx", "my", "mz"}, list(moments)},
+      {{"mx", "my", "mz", "torque"}, list(moments)},
       {{"mass"}, list(masses)},
       {{"squareness"}, list(slopes)},
-      {{"gx", "gy", "gz", "session", "kind", "bar", "axes"}, list(none)},
+      {{"scale"}, list(scales)},
+      {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point"}, list(none)},
   };
   return all;
 }
@@ -62,26 +68,28 @@ std::optional<double> unit_in(const std::vector<Unit>& units, std::string_view u
   return {};
 }
 
+}  // namespace
+
 std::string_view letter_of(const std::string& actuator) {
   return std::string_view(actuator).substr(actuator.find(' ') + 1);
 }
-
-}  // namespace
 
 std::optional<Quantity> quantity_of(std::string_view column, const Machine& machine) {
   const std::vector<Actuator> all = actuators(machine);
   const std::vector<std::string> names = actuator_names(machine);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const std::string number = fmt::format("q{}", i + 1);
-    const std::vector<Unit> units = all[i].joint.kind == JointKind::revolute ? list(angles) : list(lengths);
+    const bool turns = all[i].joint.kind == JointKind::revolute;
+    const std::vector<Unit> units = turns ? list(angles) : list(lengths);
     for (const std::string_view name : {std::string_view(number), letter_of(names[i])})
       if (const auto [found, unit] = parts_of(column, name); !found.empty())
-        if (const auto si = unit_in(units, unit)) return Quantity{number, *si};
+        if (const auto si = unit_in(units, unit)) return Quantity{number, *si, turns, std::string(unit)};
   }
   for (const Kind& kind : kinds())
     for (const std::string_view name : kind.names)
       if (const auto [found, unit] = parts_of(column, name); !found.empty())
-        if (const auto si = unit_in(kind.units, unit)) return Quantity{std::string(name), *si};
+        if (const auto si = unit_in(kind.units, unit))
+          return Quantity{std::string(name), *si, kind.is_angle, std::string(unit)};
   return {};
 }
 
@@ -93,9 +101,9 @@ std::string column_names(const Machine& machine) {
   return text +
          "x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm, mass_kg, gx, gy, "
          "gz, "
-         "reading_um, length_mm, squareness_um_per_m, axes, bar, sigma_mm, sigma_angle_deg, session, kind "
-         "(other "
-         "units: m, um, in, rad, mrad, kN)";
+         "reading_um, length_mm, squareness_um_per_m, axes, axis, direction, position_mm, deviation_um, "
+         "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, sigma_mm, sigma_angle_deg, session, "
+         "kind (other units: m, um, in, rad, mrad, mdeg, arcsec, kN)";
 }
 
 double number_of(const csv::Field& field, std::string_view name, bool decimal_comma, const Location& line) {

@@ -16,10 +16,12 @@ struct Column {
   std::size_t index = 0;           ///< of the field
   double si = 1;                   ///< its unit in SI
   std::optional<double> constant;  ///< SI: the same for all rows, no field
+  bool is_angle = false;           ///< its unit is one of angles
 };
 
-/// Quantities by name: "q1" to "q9", "x", "rx", "fx", "mx", "gx", "mass", "reading", "length", "sigma",
-/// "sigma_angle", "squareness"; texts "session", "kind", "bar", "axes".
+/// Quantities by name: "q1" to "q9", "x", "rx", "fx", "mx", "gx", "mass", "reading", "length", "radius",
+/// "sigma", "sigma_angle", "squareness", "scale", "position", "deviation", "reversal", "torque"; texts
+/// "session", "kind", "bar", "axes", "axis", "direction", "point".
 using Columns = std::map<std::string, Column, std::less<>>;
 
 /// The quantity and unit of a column's name, "q1_deg". Names of actuators, "X_mm" and "A1_deg", are those of
@@ -27,8 +29,13 @@ using Columns = std::map<std::string, Column, std::less<>>;
 struct Quantity {
   std::string name;
   double si = 1;
+  bool is_angle = false;
+  std::string unit{};  ///< as in the column's name; empty: none
 };
 std::optional<Quantity> quantity_of(std::string_view column, const Machine& machine);
+
+/// The name of an actuator without its kind: "X" of "axis X", "A1" of "axis A1".
+std::string_view letter_of(const std::string& actuator);
 
 /// All names that a column may have, for diagnostics.
 std::string column_names(const Machine& machine);

@@ -38,7 +38,7 @@ std::optional<MeasurementKind> kind_of(const toml::table& document, const Source
   const toml::node* node = document.get("kind");
   if (node == nullptr) return {};
   std::vector<std::string_view> names;
-  for (int k = 0; k <= static_cast<int>(MeasurementKind::axis_position); ++k)
+  for (int k = 0; k <= static_cast<int>(MeasurementKind::ballbar); ++k)
     names.push_back(name_of(static_cast<MeasurementKind>(k)));
   const std::string name = as_choice(*node, "kind", names, source);
   for (std::size_t k = 0; k < names.size(); ++k)
@@ -55,9 +55,39 @@ void read_columns(const toml::table& table, const Source& source, const Machine&
     if (node.is_string())
       description.names.emplace_back(as_text(node, key.str(), source), *quantity);
     else
-      description.constants[quantity->name] = {0, 1, as_number(node, {key.str()}, {source}) * quantity->si};
+      description.constants[quantity->name] = {0, 1, as_number(node, {key.str()}, {source}) * quantity->si,
+                                               quantity->is_angle};
   }
   description.is_mapped = true;
+}
+
+/// Where the table is in its file, and how its fields are separated.
+void read_layout(const toml::table& document, const Source& source, Description& description) {
+  const auto line = [&](std::string_view key, int least) {
+    const toml::node* node = document.get(key);
+    return node == nullptr ? 0 : static_cast<int>(as_whole(*node, {key}, least, 1000000, source));
+  };
+  const toml::node* names = document.get("names_line");
+  description.names_line = line("names_line", 0);
+  description.has_no_names = names != nullptr && description.names_line == 0;
+  description.units_line = line("units_line", 1);
+  description.first_row = line("first_row", 1);
+  if (description.has_no_names && description.units_line > 0)
+    source.fail(*document.get("units_line"), "units_line needs a row of names; names_line is 0");
+  if (description.units_line > 0 && description.units_line <= description.names_line)
+    source.fail(*document.get("units_line"),
+                fmt::format("units_line is {}; it must be behind names_line ({})", description.units_line,
+                            description.names_line));
+  if (description.first_row > 0 &&
+      description.first_row <= std::max(description.names_line, description.units_line))
+    source.fail(*document.get("first_row"), fmt::format("first_row is {}; it must be behind the rows of "
+                                                        "names and units",
+                                                        description.first_row));
+  if (const toml::node* separator = document.get("separator")) {
+    const std::string name =
+        as_choice(*separator, "separator", {"comma", "semicolon", "tab", "blank"}, source);
+    description.separator = name == "comma" ? ',' : name == "semicolon" ? ';' : name == "tab" ? '\t' : ' ';
+  }
 }
 
 Pose read_probe(const toml::node& node, const Source& source) {
@@ -78,16 +108,24 @@ Description read_description(std::string_view text, const std::string& file, con
   const toml::node* stated = document.get("format");
   if (stated == nullptr || !stated->is_string() || stated->as_string()->get() != format)
     source.fail_at_start(fmt::format("a description of measurements begins with format = \"{}\"", format));
-  check_keys(document, {"format", "file", "kind", "session", "orientation", "columns", "probe"},
+  check_keys(document,
+             {"format", "file", "states", "kind", "session", "direction", "orientation", "names_line",
+              "units_line", "first_row", "separator", "columns", "probe"},
              "a description of measurements", source);
   Description description;
   description.file = file;
   const std::string csv =
       as_text(required(document, "file", "the description", document, source), "file", source);
   description.csv = (std::filesystem::path(file).parent_path() / csv).string();
+  if (const toml::node* states = document.get("states"))
+    description.states =
+        (std::filesystem::path(file).parent_path() / as_text(*states, "states", source)).string();
   description.kind = kind_of(document, source);
+  read_layout(document, source, description);
   if (const toml::node* session = document.get("session"))
     description.session = without_controls(as_text(*session, "session", source));
+  if (const toml::node* direction = document.get("direction"))
+    description.direction = as_text(*direction, "direction", source);
   if (const toml::node* orientation = document.get("orientation"))
     description.rotation_of =
         convention(as_choice(*orientation, "orientation", {"rotvec", "xyz", "zyx"}, source));

@@ -17,7 +17,14 @@ struct Description {
   std::string csv;   ///< path of the measurements
   std::optional<MeasurementKind> kind;
   std::string session;
-  bool is_mapped = false;                               ///< it names columns; all others are ignored
+  std::string direction;      ///< of all rows without a column for it: signs, or "previous"
+  std::string states;         ///< path of a second table with the actuator values; empty: none
+  int names_line = 0;         ///< of the row of names, from 1; 0: the first row that is not a comment
+  int units_line = 0;         ///< of a row of units; 0: none
+  int first_row = 0;          ///< line of the first row with numbers; 0: the one behind names and units
+  bool has_no_names = false;  ///< columns are "#1", "#2"
+  char separator = 0;         ///< ' ': blanks; 0: found in the row of names
+  bool is_mapped = false;     ///< it names columns; all others are ignored
   std::vector<std::pair<std::string, Quantity>> names;  ///< of columns in the CSV file
   Columns constants;                                    ///< quantities that are the same in all rows
   Pose X_TB;                                            ///< probe B in the tip's frame

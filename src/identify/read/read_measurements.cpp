@@ -1,78 +1,28 @@
 #include <fmt/format.h>
 
 #include <algorithm>
-#include <array>
 #include <filesystem>
-#include <set>
+#include <map>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/measurements.hpp"
 #include "counterflex/machine/shown.hpp"
-#include "identify/read/columns.hpp"
+#include "identify/read/axis_motion.hpp"
 #include "identify/read/description.hpp"
+#include "identify/read/kinds.hpp"
+#include "identify/read/table.hpp"
 
 namespace counterflex {
 namespace {
 
 using namespace measurement_file;
 
-constexpr std::array<std::string_view, 8> kind_names = {"tracker_point", "tracker_pose",  "static_push",
-                                                        "hung_weight",   "plane_contact", "length_bar",
-                                                        "squareness",    "axis_position"};
-
-// Standard deviations of rows that give none: a laser tracker, a dial gauge, a touch, a bar, a ball bar.
-constexpr double default_sigma_tracker = 0.05 * mm, default_sigma_angle = 0.01 * deg,
-                 default_sigma_gauge = 5 * um, default_sigma_touch = 0.02 * mm,
-                 default_sigma_squareness = 5e-6;
 constexpr double default_weight_g = 9.80665;  // m/s2, where the machine file has no gravity
+constexpr double default_radius = 50 * mm;    // of a motion that shows squareness or scale
 
-std::optional<MeasurementKind> kind_named(std::string_view name) {
-  const auto found = std::find(kind_names.begin(), kind_names.end(), name);
-  if (found == kind_names.end()) return {};
-  return static_cast<MeasurementKind>(found - kind_names.begin());
-}
-
-/// The columns that rows of a kind need besides those of the actuators.
-std::vector<std::string_view> needed(MeasurementKind kind) {
-  switch (kind) {
-    case MeasurementKind::tracker_point:
-      return {"x", "y", "z"};
-    case MeasurementKind::tracker_pose:
-      return {"x", "y", "z", "rx", "ry", "rz"};
-    case MeasurementKind::static_push:
-      return {"reading", "gx", "gy", "gz"};
-    case MeasurementKind::hung_weight:
-      return {"reading", "mass"};
-    case MeasurementKind::plane_contact:
-      return {};
-    case MeasurementKind::length_bar:
-      return {"bar", "length"};
-    case MeasurementKind::squareness:
-      return {"axes", "squareness"};
-    case MeasurementKind::axis_position:
-      return {"reading", "gx", "gy", "gz"};
-  }
-  return {};
-}
-
-double default_sigma(MeasurementKind kind) {
-  switch (kind) {
-    case MeasurementKind::tracker_point:
-    case MeasurementKind::tracker_pose:
-      return default_sigma_tracker;
-    case MeasurementKind::plane_contact:
-    case MeasurementKind::length_bar:
-      return default_sigma_touch;
-    case MeasurementKind::squareness:
-      return default_sigma_squareness;
-    default:
-      return default_sigma_gauge;
-  }
-}
-
-/// The rows of one CSV text.
+/// Makes measurements of the rows of one table.
 class RowReader {
  public:
   RowReader(const std::string& file, const Machine& machine, const Description& description,
@@ -81,26 +31,14 @@ class RowReader {
         machine_(machine),
         description_(description),
         all_(all),
-        actuators_(actuators(machine)),
-        names_(actuator_names(machine)),
+        axes_(machine),
         shown_home_(shown_homes(machine)) {}
 
   void read(std::string_view text) {
-    if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-    bool has_header = false;
-    Location where{file_, 0, 1};
-    while (!text.empty()) {
-      const std::string_view line = csv::take_line(text);
-      ++where.line;
-      if (csv::trimmed(line).empty() || csv::trimmed(line).starts_with('#')) continue;
-      if (!has_header) {
-        read_header(line, where);
-        has_header = true;
-      } else {
-        read_row(line, where);
-      }
-    }
-    if (!has_header) csv::fail({file_, 0, 0}, "the file has no row with the names of its columns");
+    Table table(text, file_, description_, machine_);
+    table_ = &table;
+    check_actuators();
+    while (table.next()) read_row();
     if (!open_bars_.empty())
       csv::fail(open_bars_.begin()->second,
                 fmt::format("bar \"{}\" has one end; a bar has two rows, one for each end",
@@ -108,162 +46,164 @@ class RowReader {
   }
 
  private:
-  void read_header(std::string_view line, const Location& where) {
-    separator_ = line.find(';') != std::string_view::npos    ? ';'
-                 : line.find('\t') != std::string_view::npos ? '\t'
-                                                             : ',';
-    const std::vector<csv::Field> fields = csv::split(line, 1, separator_);
-    count_ = fields.size();
-    columns_ = description_.constants;
-    std::set<std::string, std::less<>> seen;
-    for (std::size_t i = 0; i < fields.size(); ++i) {
-      const Location at{file_, where.line, fields[i].column};
-      if (!seen.insert(std::string(fields[i].text)).second)
-        csv::fail(at, fmt::format("column \"{}\" is there twice", without_controls(fields[i].text)));
-      if (description_.is_mapped) {
-        for (const auto& [name, quantity] : description_.names)
-          if (name == fields[i].text) columns_[quantity.name] = {i, quantity.si, {}};
-        continue;
-      }
-      const std::optional<Quantity> quantity = quantity_of(fields[i].text, machine_);
-      if (!quantity)
-        csv::fail(at, fmt::format("unknown column \"{}\"; known columns: {}",
-                                  without_controls(fields[i].text), column_names(machine_)));
-      columns_[quantity->name] = {i, quantity->si, {}};
-    }
-    for (const auto& [name, quantity] : description_.names)
-      if (!seen.contains(name))
-        csv::fail({file_, where.line, 1},
-                  fmt::format("the file has no column \"{}\", which {} names", name, description_.file));
-    for (std::size_t i = 0; i < actuators_.size(); ++i) {
-      const std::string name = fmt::format("q{}", i + 1);
-      if (description_.kind != MeasurementKind::squareness && !columns_.contains(name) &&
-          !columns_.contains("kind"))
-        csv::fail({file_, where.line, 1},
-                  fmt::format("the values of {} are missing; add a column q{}_{}", names_[i], i + 1,
-                              actuators_[i].joint.kind == JointKind::revolute ? "deg" : "mm"));
-    }
+  /// Before the first row, where all rows have one kind.
+  void check_actuators() const {
+    if (table_->has("kind") || (description_.kind && !needs_actuators(*description_.kind))) return;
+    for (std::size_t i = 0; i < axes_.count(); ++i)
+      if (!table_->has(fmt::format("q{}", i + 1)))
+        table_->fail("", fmt::format("the values of {} are missing; add a column q{}_{}", axes_.name(i),
+                                     i + 1, axes_.turns(i) ? "deg" : "mm"));
   }
 
-  const csv::Field* text_field(std::string_view name) const {
-    const auto found = columns_.find(name);
-    return found == columns_.end() || found->second.constant ? nullptr : &fields_[found->second.index];
-  }
-
-  bool has(std::string_view name) const { return columns_.find(name) != columns_.end(); }
-
-  double value(std::string_view name, const Location& where) const {
-    const Column& column = columns_.find(name)->second;
-    if (column.constant) return *column.constant;
-    return number_of(fields_[column.index], name, separator_ != ',', where) * column.si;
-  }
-
-  double value_or(std::string_view name, double otherwise, const Location& where) const {
-    return has(name) ? value(name, where) : otherwise;
-  }
-
-  Vector3 vector(std::string_view x, std::string_view y, std::string_view z, const Location& where) const {
-    return {value_or(x, 0, where), value_or(y, 0, where), value_or(z, 0, where)};
-  }
-
-  MeasurementKind kind_of_row(const Location& where) const {
-    const csv::Field* field = text_field("kind");
+  MeasurementKind kind_of_row() const {
+    const csv::Field* field = table_->text("kind");
     if (field == nullptr) {
       if (description_.kind) return *description_.kind;
-      csv::fail({file_, where.line, 1},
-                fmt::format("the kind of the rows is not known; add a column \"kind\" with one of {}",
-                            fmt::join(kind_names, ", ")));
+      table_->fail("", fmt::format("the kind of the rows is not known; add a column \"kind\" with one of {}",
+                                   kind_names()));
     }
     const std::optional<MeasurementKind> kind = kind_named(field->text);
     if (!kind)
-      csv::fail({file_, where.line, field->column},
-                fmt::format("kind is \"{}\"; it must be one of {}", without_controls(field->text),
-                            fmt::join(kind_names, ", ")));
+      table_->fail("kind", fmt::format("kind is \"{}\"; it must be one of {}", without_controls(field->text),
+                                       kind_names()));
     return *kind;
   }
 
-  std::size_t session_of(MeasurementKind kind, bool sigma_given) {
-    const csv::Field* field = text_field("session");
-    const std::string name = field != nullptr && !field->text.empty() ? without_controls(field->text)
-                             : !description_.session.empty()          ? description_.session
-                                                             : std::filesystem::path(file_).stem().string();
+  /// `part` distinguishes rows of one session whose unknowns differ.
+  std::size_t session_of(MeasurementKind kind, const std::string& part = "") {
+    const csv::Field* field = table_->text("session");
+    const std::string name =
+        (field != nullptr && !field->text.empty() ? without_controls(field->text)
+         : !description_.session.empty()          ? description_.session
+                                                  : std::filesystem::path(file_).stem().string()) +
+        part;
     for (std::size_t i = 0; i < all_.sessions.size(); ++i)
       if (all_.sessions[i].name == name && all_.sessions[i].kind == kind) return i;
+    const bool sigma_given = table_->is_filled("sigma") || table_->is_filled("sigma_angle");
     all_.sessions.push_back({name, kind, sigma_given, description_.X_TB});
     return all_.sessions.size() - 1;
   }
 
-  Eigen::VectorXd shown_values_of(const Location& where) const {
-    Eigen::VectorXd shown(static_cast<Eigen::Index>(actuators_.size()));
-    for (std::size_t i = 0; i < actuators_.size(); ++i)
-      shown[static_cast<Eigen::Index>(i)] = value(fmt::format("q{}", i + 1), where);
+  /// Actuator values of the row; those of home for actuators without a column where the kind allows that.
+  Eigen::VectorXd shown_values_of(MeasurementKind kind) const {
+    Eigen::VectorXd shown = shown_home_;
+    for (std::size_t i = 0; i < axes_.count(); ++i) {
+      const std::string name = fmt::format("q{}", i + 1);
+      if (!table_->has(name) && needs_actuators(kind))
+        table_->fail("", fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
+      if (table_->is_filled(name) || needs_actuators(kind))
+        shown[static_cast<Eigen::Index>(i)] = table_->value(name);
+    }
     return shown;
   }
 
-  Vector3 gauge_direction(MeasurementKind kind, const Location& where) const {
-    if (kind == MeasurementKind::hung_weight && !has("gx") && !has("gy") && !has("gz"))
+  Vector3 vector(std::string_view x, std::string_view y, std::string_view z) const {
+    return {table_->value_or(x, 0), table_->value_or(y, 0), table_->value_or(z, 0)};
+  }
+
+  Vector3 gauge_direction(MeasurementKind kind) const {
+    if (kind == MeasurementKind::hung_weight && !table_->has("gx") && !table_->has("gy") &&
+        !table_->has("gz"))
       return -Vector3::UnitZ();
-    const Vector3 direction = vector("gx", "gy", "gz", where);
+    const Vector3 direction = vector("gx", "gy", "gz");
     if (!(direction.norm() > 1e-6))
-      csv::fail({file_, where.line, 1}, "gx, gy, gz are zero; they must be the direction of the gauge");
+      table_->fail("", "gx, gy, gz are zero; they must be the direction of the gauge");
     return direction.normalized();
   }
 
-  void read_row(std::string_view line, const Location& where) {
-    fields_ = csv::split(line, 1, separator_);
-    if (fields_.size() != count_)
-      csv::fail({file_, where.line, 1},
-                fmt::format("the row has {} fields; the first row names {} columns", fields_.size(), count_));
-    const MeasurementKind kind = kind_of_row(where);
-    for (const std::string_view name : needed(kind))
-      if (!has(name))
-        csv::fail({file_, where.line, 1},
-                  fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
-    Measurement row;
-    row.at = {file_, where.line, 1};
-    const bool sigma_given = has("sigma");
-    row.sigma = sigma_given ? value("sigma", where) : default_sigma(kind);
-    row.sigma_angle = value_or("sigma_angle", default_sigma_angle, where);
-    if (!(row.sigma > 0 && row.sigma_angle > 0))
-      csv::fail({file_, where.line, 1}, "a standard deviation is not positive");
-    row.session = session_of(kind, sigma_given);
-    if (kind == MeasurementKind::squareness) {
-      read_squareness(where, row);
-      return;
+  /// "+", "-", "up", "down" of all actuators, or of the axis `only`; "+-0+00", a sign for each; "previous":
+  /// from the row before.
+  Directions directions_of(std::size_t session, const Eigen::VectorXd& shown,
+                           std::optional<std::size_t> only = {}) {
+    const csv::Field* field = table_->text("direction");
+    const std::string_view text = field != nullptr ? field->text : std::string_view(description_.direction);
+    if (text.empty() || text == "0") return {};
+    if (text == "previous") {
+      const auto before = last_.find(session);
+      const Directions directions =
+          before == last_.end()
+              ? Directions{}
+              : axes_.directions_between(before->second.shown, shown, before->second.directions);
+      last_[session] = {shown, Vector6::Zero(), directions};
+      return directions;
     }
-    for (std::size_t i = 0; i < actuators_.size(); ++i)
-      if (!has(fmt::format("q{}", i + 1)))
-        csv::fail({file_, where.line, 1},
-                  fmt::format("rows of kind {} need a column \"q{}\"", name_of(kind), i + 1));
-    row.states.push_back({shown_values_of(where)});
+    const auto n = static_cast<Eigen::Index>(axes_.count());
+    Eigen::VectorXd signs = Eigen::VectorXd::Zero(n);
+    const bool is_up = text == "+" || text == "up";
+    if (is_up || text == "-" || text == "down")
+      (only ? signs.segment(static_cast<Eigen::Index>(*only), 1) : signs.segment(0, n))
+          .setConstant(is_up ? 1 : -1);
+    else if (text.size() == axes_.count() && text.find_first_not_of("+-0") == std::string_view::npos)
+      for (Eigen::Index i = 0; i < n; ++i) {
+        const char sign = text[static_cast<std::size_t>(i)];
+        signs[i] = sign == '+' ? 1 : sign == '-' ? -1 : 0;
+      }
+    else
+      table_->fail(
+          "direction",
+          fmt::format("direction is \"{}\"; it must be +, -, up, down, previous, or {} signs of +, - "
+                      "and 0, one for each actuator",
+                      without_controls(text), axes_.count()));
+    return axes_.directions_of(signs);
+  }
+
+  void read_row() {
+    const MeasurementKind kind = kind_of_row();
+    for (const std::string_view name : needed_columns(kind))
+      if (!table_->has(name) && !(name == "direction" && !description_.direction.empty()))
+        table_->fail("", fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
+    Measurement row;
+    row.at = {file_, table_->where().line, 1};
+    row.sigma = table_->value_or("sigma", default_sigma(kind));
+    row.sigma_angle = table_->value_or("sigma_angle", default_sigma_angle);
+    if (!(row.sigma > 0 && row.sigma_angle > 0)) table_->fail("", "a standard deviation is not positive");
+    switch (kind) {
+      case MeasurementKind::squareness:
+      case MeasurementKind::ballbar:
+        return read_axes(kind, row);
+      case MeasurementKind::axis_table:
+      case MeasurementKind::reversal:
+      case MeasurementKind::scale:
+      case MeasurementKind::clamped_torque:
+        return read_axis(kind, row, axis_named("axis"));
+      default:
+        return read_tip(kind, row);
+    }
+  }
+
+  /// Rows of a tip whose actuator values they state.
+  void read_tip(MeasurementKind kind, Measurement& row) {
+    row.session = session_of(kind);
+    row.states.push_back({shown_values_of(kind)});
+    row.states[0].directions = directions_of(row.session, row.states[0].shown);
     switch (kind) {
       case MeasurementKind::tracker_pose:
-        row.X.R = description_.rotation_of(vector("rx", "ry", "rz", where));
+        row.X.R = description_.rotation_of(vector("rx", "ry", "rz"));
         [[fallthrough]];
       case MeasurementKind::tracker_point:
-        row.X.p = vector("x", "y", "z", where);
+        row.X.p = vector("x", "y", "z");
         break;
       case MeasurementKind::static_push:
       case MeasurementKind::hung_weight: {
         row.states.push_back(row.states[0]);
         Vector6& F = row.states[0].F;
         if (kind == MeasurementKind::static_push)
-          F << vector("fx", "fy", "fz", where), vector("mx", "my", "mz", where);
+          F << vector("fx", "fy", "fz"), vector("mx", "my", "mz");
         else
-          F.head<3>() = value("mass", where) * weight();
-        if (F.isZero(0)) csv::fail({file_, where.line, 1}, "the force is zero");
-        row.direction = gauge_direction(kind, where);
-        row.value = value("reading", where);
+          F.head<3>() = table_->value("mass") * weight();
+        if (F.isZero(0)) table_->fail("", "the force is zero");
+        row.direction = gauge_direction(kind);
+        row.value = table_->value("reading");
         break;
       }
       case MeasurementKind::axis_position:
-        row.direction = gauge_direction(kind, where);
-        row.value = value("reading", where);
+        row.direction = gauge_direction(kind);
+        row.value = table_->value("reading");
         break;
       case MeasurementKind::length_bar: {
-        const csv::Field* bar = text_field("bar");
+        const csv::Field* bar = table_->text("bar");
         const std::string name = bar == nullptr ? "" : std::string(bar->text);
-        row.value = value("length", where);
+        row.value = table_->value("length");
         if (const auto open = open_bars_.find(name); open == open_bars_.end()) {
           open_bars_.emplace(name, row.at);
           first_ends_.emplace(name, row.states[0]);
@@ -284,27 +224,133 @@ class RowReader {
     return machine_.gravity.g.isZero(0) ? Vector3(0, 0, -default_weight_g) : machine_.gravity.g;
   }
 
-  /// Four states: each axis 50 mm to both sides of home, or as far as its travel allows.
-  void read_squareness(const Location& where, Measurement& row) {
-    const csv::Field* axes = text_field("axes");
+  std::size_t axis_named(std::string_view column) const {
+    const csv::Field* field = table_->text(column);
+    const std::optional<std::size_t> axis = axes_.find(field == nullptr ? "" : field->text);
+    if (axis) return *axis;
+    std::string known;
+    for (std::size_t i = 0; i < axes_.count(); ++i)
+      known += fmt::format("{}{}", i == 0 ? "" : ", ", letter_of(axes_.name(i)));
+    table_->fail(column, fmt::format("{} is \"{}\"; it must be one of {}", column,
+                                     field == nullptr ? "" : without_controls(field->text), known));
+  }
+
+  /// The value of a column that has the unit of an axis.
+  double axis_value(std::string_view column, std::size_t axis) const {
+    if (table_->is_angle(column) && !axes_.turns(axis))
+      table_->fail(column, fmt::format("{} has a unit of angles; {} is linear", column, axes_.name(axis)));
+    if (!table_->is_angle(column) && axes_.turns(axis))
+      table_->fail(column, fmt::format("{} has a unit of lengths; {} turns", column, axes_.name(axis)));
+    return table_->value(column);
+  }
+
+  /// The deviation of a row whose value has the unit of an axis.
+  void set_sigma_of(std::size_t axis, Measurement& row) const {
+    row.is_length = !axes_.turns(axis);
+    if (!row.is_length) row.sigma = table_->value_or("sigma_angle", default_sigma_axis_angle);
+  }
+
+  /// The state with an axis moved by `by`, or as far as its travel allows.
+  CommandedState moved(const Eigen::VectorXd& shown, std::size_t axis, double by) const {
+    CommandedState state{shown};
+    double& q = state.shown[static_cast<Eigen::Index>(axis)];
+    q = by > 0 ? std::min(q + by, std::max(axes_.actuator(axis).max, q))
+               : std::max(q + by, std::min(axes_.actuator(axis).min, q));
+    return state;
+  }
+
+  /// Rows of a single axis.
+  void read_axis(MeasurementKind kind, Measurement row, std::size_t axis) {
+    row.session = session_of(kind, fmt::format(" {}", letter_of(axes_.name(axis))));
+    CommandedState state{shown_values_of(kind)};
+    if (kind == MeasurementKind::clamped_torque) {
+      if (!axes_.turns(axis))
+        table_->fail("axis", fmt::format("{} is linear; rows of kind clamped_torque need a rotary axis",
+                                         axes_.name(axis)));
+      set_sigma_of(axis, row);
+      row.value = state.shown[static_cast<Eigen::Index>(axis)];
+      state.clamped = ClampedTorque{axis, table_->value("torque")};
+      row.states = {state};
+      all_.rows.push_back(std::move(row));
+      return;
+    }
+    if (kind == MeasurementKind::axis_table)
+      state.shown[static_cast<Eigen::Index>(axis)] = axis_value("position", axis);
+    const std::optional<Vector3> direction = axes_.direction_of(axis, state.shown);
+    if (!direction)
+      table_->fail("axis",
+                   fmt::format("the tip does not move as far as {}; measure the tip with rows of kind "
+                               "axis_position",
+                               axes_.name(axis)));
+    row.direction = *direction;
+    const Eigen::VectorXd forward =
+        Eigen::VectorXd::Unit(shown_home_.size(), static_cast<Eigen::Index>(axis));
+    if (kind == MeasurementKind::axis_table) {
+      set_sigma_of(axis, row);
+      row.value = axis_value("deviation", axis);
+      state.directions = directions_of(row.session, state.shown, axis);
+      row.states = {state};
+    } else if (kind == MeasurementKind::reversal) {
+      set_sigma_of(axis, row);
+      row.value = axis_value("reversal", axis);
+      row.states = {state, state};
+      row.states[0].directions = axes_.directions_of(forward);
+      row.states[1].directions = axes_.directions_of(-forward);
+    } else {
+      if (axes_.turns(axis))
+        table_->fail("axis",
+                     fmt::format("{} turns; rows of kind scale need a linear axis", axes_.name(axis)));
+      row.is_length = false;
+      row.value = table_->value("scale");
+      const double radius = table_->value_or("radius", default_radius);
+      row.states = {moved(state.shown, axis, -radius), moved(state.shown, axis, radius)};
+    }
+    all_.rows.push_back(std::move(row));
+  }
+
+  /// Rows of two linear axes: a squareness, or the numbers of a ball bar's report.
+  void read_axes(MeasurementKind kind, const Measurement& row) {
+    const csv::Field* field = table_->text("axes");
+    const std::string_view text = field == nullptr ? std::string_view() : field->text;
     std::vector<std::size_t> found;
-    for (const char letter : axes == nullptr ? std::string_view() : axes->text)
-      for (std::size_t i = 0; i < names_.size(); ++i)
-        if (actuators_[i].joint.kind == JointKind::prismatic && names_[i] == fmt::format("axis {}", letter))
-          found.push_back(i);
-    if (found.size() != 2 || found[0] == found[1])
-      csv::fail({file_, where.line, axes == nullptr ? 1 : axes->column},
-                fmt::format("axes is \"{}\"; it must name two linear axes of the machine, as XY",
-                            axes == nullptr ? "" : without_controls(axes->text)));
-    for (const std::size_t axis : found)
-      for (const double side : {-1.0, 1.0}) {
-        CommandedState state{shown_home_};
-        double& q = state.shown[static_cast<Eigen::Index>(axis)];
-        q = std::clamp(q + side * 50 * mm, std::max(actuators_[axis].min, q - 50 * mm),
-                       std::min(actuators_[axis].max, q + 50 * mm));
-        row.states.push_back(std::move(state));
-      }
-    row.value = value("squareness", where);
+    for (std::size_t i = 0; i < text.size(); ++i)
+      if (const auto axis = axes_.find(text.substr(i, 1)); axis && !axes_.turns(*axis))
+        found.push_back(*axis);
+    const bool is_pair = text.size() == 2 && found.size() == 2 && found[0] != found[1];
+    const bool is_one = kind == MeasurementKind::ballbar && text.size() == 1 && found.size() == 1;
+    if (!is_pair && !is_one)
+      table_->fail(
+          "axes", fmt::format("axes is \"{}\"; it must name two linear axes of the machine, as XY{}",
+                              without_controls(text),
+                              kind == MeasurementKind::ballbar ? ", or one for its reversal and scale" : ""));
+    if (kind == MeasurementKind::squareness || (is_pair && table_->is_filled("squareness")))
+      read_squareness(found, row);
+    if (kind == MeasurementKind::squareness) return;
+    for (const auto& [name, part] :
+         {std::pair{"reversal", MeasurementKind::reversal}, std::pair{"scale", MeasurementKind::scale}}) {
+      if (!table_->is_filled(name)) continue;
+      if (is_pair)
+        table_->fail("axes", fmt::format("axes is \"{}\"; the {} is that of one axis", text, name));
+      Measurement one = row;
+      one.sigma = table_->value_or("sigma", default_sigma(part));
+      read_axis(part, one, found[0]);
+    }
+    if (is_one && table_->is_filled("squareness"))
+      table_->fail("axes", fmt::format("axes is \"{}\"; a squareness is that of two axes", text));
+    if (!table_->is_filled("squareness") && !table_->is_filled("reversal") && !table_->is_filled("scale"))
+      table_->fail("", "the row has no squareness, no reversal and no scale");
+  }
+
+  /// Four states: each axis to both sides.
+  void read_squareness(const std::vector<std::size_t>& pair, Measurement row) {
+    const Eigen::VectorXd centre = shown_values_of(MeasurementKind::squareness);
+    const double radius = table_->value_or("radius", default_radius);
+    for (const std::size_t axis : pair)
+      for (const double side : {-1.0, 1.0}) row.states.push_back(moved(centre, axis, side * radius));
+    row.session = session_of(MeasurementKind::squareness);
+    row.is_length = false;
+    row.value = table_->value("squareness");
+    row.sigma = table_->value_or("sigma", default_sigma(MeasurementKind::squareness));
     all_.rows.push_back(std::move(row));
   }
 
@@ -312,22 +358,15 @@ class RowReader {
   const Machine& machine_;
   const Description& description_;
   Measurements& all_;
-  std::vector<Actuator> actuators_;
-  std::vector<std::string> names_;
+  Table* table_ = nullptr;
+  Axes axes_;
   Eigen::VectorXd shown_home_;
-  char separator_ = ',';
-  std::size_t count_ = 0;
-  Columns columns_;
-  std::vector<csv::Field> fields_;
   std::map<std::string, Location> open_bars_;
   std::map<std::string, CommandedState> first_ends_;
+  std::map<std::size_t, CommandedState> last_;  ///< by session: the row before
 };
 
 }  // namespace
-
-std::string_view name_of(MeasurementKind kind) {
-  return kind_names[static_cast<std::size_t>(kind)];
-}
 
 void read_measurements(std::string_view csv, const std::string& file, const Machine& machine,
                        Measurements& all) {
@@ -340,7 +379,8 @@ void load_measurements(const std::string& file, const Machine& machine, Measurem
     return;
   }
   const Description description = read_description(read_file(file), file, machine);
-  RowReader(description.csv, machine, description, all).read(read_file(description.csv));
+  const std::string text = read_file(description.csv);
+  RowReader(description.csv, machine, description, all).read(text);
 }
 
 }  // namespace counterflex

@@ -48,7 +48,7 @@ Json json_of(const ErrorSummary& summary, double unit) {
 std::string to_text(const Identification& found) {
   std::string text;
   for (const HeldOutGroup& group : found.held_out) {
-    const ErrorUnit unit = unit_of(group.kind);
+    const ErrorUnit unit = unit_of(group.kind, group.is_length);
     text += fmt::format("held out     {}, {}: {} ({}, {} rows)\n", group.name, name_of(group.kind),
                         pair_of(group.before, group.after, unit.si), unit.name, group.after.count);
     if (group.angle_after.count > 0)
@@ -109,7 +109,7 @@ std::string to_json(const Identification& found) {
                               {"kept", step.is_kept}});
   json["held_out"] = Json::array();
   for (const HeldOutGroup& group : found.held_out) {
-    const ErrorUnit unit = unit_of(group.kind);
+    const ErrorUnit unit = unit_of(group.kind, group.is_length);
     Json entry{{"name", group.name},
                {"kind", name_of(group.kind)},
                {"unit", unit.name},

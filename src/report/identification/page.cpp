@@ -60,7 +60,7 @@ std::string lead(const Identification& found) {
     return "<p class=\"lead\">No row was held out: how well the values predict is not known.</p>\n";
   std::string text;
   for (const HeldOutGroup& group : found.held_out) {
-    const ErrorUnit unit = unit_of(group.kind);
+    const ErrorUnit unit = unit_of(group.kind, group.is_length);
     text += fmt::format(
         "<p class=\"lead\">{}, {}: mean error {} {} on {} rows that the fit did not see.</p>\n",
         xml_escaped(group.name), name_of(group.kind),
@@ -82,7 +82,7 @@ std::string held_out_table(const Identification& found) {
                    bars(a.mean, b.mean, std::max(a.mean, b.mean))});
     };
     add(fmt::format("{}, {}", xml_escaped(group.name), name_of(group.kind)), group.before, group.after,
-        unit_of(group.kind));
+        unit_of(group.kind, group.is_length));
     add("orientation", group.angle_before, group.angle_after, {"deg", deg});
   }
   text += "</table>\n";

@@ -18,6 +18,8 @@ inline std::string_view name_of(ParameterSet set) {
       return "compliance";
     case ParameterSet::mass:
       return "mass";
+    case ParameterSet::reversal:
+      return "reversal";
   }
   return "";
 }
@@ -32,15 +34,19 @@ struct ErrorUnit {
   double si;
 };
 
-/// Of errors of rows of a kind.
-inline ErrorUnit unit_of(MeasurementKind kind) {
+/// Of errors of rows of a kind; `is_length` is that of the rows' values.
+inline ErrorUnit unit_of(MeasurementKind kind, bool is_length) {
   switch (kind) {
     case MeasurementKind::squareness:
+    case MeasurementKind::scale:
       return {"um/m", 1e-6};
     case MeasurementKind::static_push:
     case MeasurementKind::hung_weight:
     case MeasurementKind::axis_position:
-      return {"um", um};
+    case MeasurementKind::axis_table:
+    case MeasurementKind::reversal:
+    case MeasurementKind::clamped_torque:
+      return is_length ? ErrorUnit{"um", um} : ErrorUnit{"mdeg", 1e-3 * deg};
     default:
       return {"mm", mm};
   }
