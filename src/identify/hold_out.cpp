@@ -14,9 +14,15 @@ constexpr std::size_t frame_rows = 20;  // of a session that is held out: they g
 constexpr std::size_t parts = 5, regions = 4;
 constexpr std::size_t fewest = 10;  // rows of a group
 
+/// Whether other sessions show the same parameters. Those of single axes do not.
+bool is_like_others(MeasurementKind kind) {
+  return kind != MeasurementKind::axis_table && kind != MeasurementKind::clamped_torque;
+}
+
 std::vector<RowGroup> by_session(const FitProblem& problem) {
   std::vector<RowGroup> groups;
   for (std::size_t s = 0; s < problem.measurements.sessions.size(); ++s) {
+    if (!is_like_others(problem.measurements.sessions[s].kind)) continue;
     RowGroup group{problem.measurements.sessions[s].name, {}, true};
     for (std::size_t i = 0; i < problem.measurements.rows.size(); ++i)
       if (problem.measurements.rows[i].session == s) group.rows.push_back(i);

@@ -61,7 +61,9 @@ double total_mass(const Machine& machine) {
 }
 
 bool weighs(const Machine& machine) {
-  return !machine.gravity.g.isZero(0) && total_mass(machine) > 0;
+  const auto has_mass = [](const auto& entry) { return entry.second.mass.has_value(); };
+  return !machine.gravity.g.isZero(0) &&
+         (total_mass(machine) > 0 || std::any_of(machine.tools.begin(), machine.tools.end(), has_mass));
 }
 
 std::vector<Actuator> actuators(const Machine& machine) {

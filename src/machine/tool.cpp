@@ -62,13 +62,24 @@ Pose tip_of(const Machine& machine, const Tool& tool) {
 }
 
 bool changes_model(const Machine& machine, const Tool& tool) {
-  return !tool.yields.empty() || (machine.X_PS && tool.length);
+  return !tool.yields.empty() || (machine.X_PS && tool.length) || (tool.mass && !machine.gravity.g.isZero(0));
 }
 
 Machine with_tool(const Machine& machine, const Tool& tool) {
   Machine result = machine;
   const Pose X_PT = tip_of(machine, tool);
   result.X_PT = X_PT;
+  if (tool.mass) {
+    // Before the tool's springs, so that the holder's place in the platform carries it.
+    PointMass mass = *tool.mass;
+    mass.at = X_PT * mass.at;
+    std::vector<Element>& elements = result.chains.front().elements;
+    if (result.ends_with_tool_mass)
+      elements.back() = mass;
+    else
+      elements.push_back(mass);
+    result.ends_with_tool_mass = true;
+  }
   if (tool.yields.empty()) return result;
   result.X_PT = {};
   result.p_EP = inverse(X_PT).p;

@@ -70,6 +70,7 @@ Sources sources(const Measures& measures, bool weights) {
   if (weights) result.gravity = measures.gravity.statistics();
   if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9)
     result.preloads = preloads;
+  if (const auto fixture = measures.fixture.statistics(); fixture.max_mm > 0) result.fixture = fixture;
   return result;
 }
 
@@ -161,6 +162,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tools = used_tools(context.machine, context.program.tools);
   report.tools_assumed = tools_in_words(report.tools, context.program.tools);
   report.gravity = gravity_in_words(context.machine);
+  report.thermal = thermal_in_words(context.machine);
   report.reversals = tally.reversals();
   for (const Corrected what : context.machine.already_corrects)
     report.already_corrected.emplace_back(corrected_names[static_cast<std::size_t>(what)]);

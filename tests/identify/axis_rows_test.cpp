@@ -81,6 +81,25 @@ TEST_CASE("an ISO 230-2 table gives the reversal of its axis, and the table of e
   CHECK(found.lack_of_fit < 1e-8);
 }
 
+TEST_CASE("tables of several axes do not test each other, and reversals that they show are kept") {
+  std::string csv = "kind,axis,position_mm,deviation_um,direction\n";
+  Random random(8);
+  for (const auto& [axis, lost] : {std::pair{"X", 12.0}, std::pair{"Y", 5.0}})
+    for (int run = 0; run < 3; ++run)
+      for (int at = -400; at <= 400; at += 80)
+        for (const int sign : {1, -1})
+          csv += fmt::format("axis_table,{},{},{},{}\n", axis, at,
+                             (*axis == 'X' ? 0.03 * at : 0) - sign * lost / 2 + 0.5 * normal(random),
+                             sign > 0 ? "+" : "-");
+  const Machine machine = reversing_mill(0, 0);
+  const Identification found = identify(machine, read(machine, csv), {});
+  REQUIRE(!found.ladder.empty());
+  CHECK(found.ladder.back().set == ParameterSet::reversal);
+  CHECK(found.ladder.back().is_kept);
+  CHECK(value_of(found, "X.reversal_um") == doctest::Approx(12).epsilon(0.05));
+  CHECK(value_of(found, "Y.reversal_um") == doctest::Approx(5).epsilon(0.1));
+}
+
 TEST_CASE("lost motion is found from positions of a tracker whose rows follow each other") {
   const Machine nominal = reversing_mill(0, 0), truth = reversing_mill(12, 5);
   const Model model = prepare(truth);

@@ -115,8 +115,9 @@ struct Piece {
 struct Causes {
   Vector6 geometry = Vector6::Zero();       ///< before, assembly errors alone: no force, no weight
   Vector6 load = Vector6::Zero();           ///< before, forces alone: perfect assembly, no weight
+  Vector6 fixture = Vector6::Zero();        ///< before, forces on the part alone: they are not in `load`
   Vector6 gravity = Vector6::Zero();        ///< before, weights alone; zero for a machine without masses
-  Vector6 superposition = Vector6::Zero();  ///< sum of the three, what preloads do alone counted once
+  Vector6 superposition = Vector6::Zero();  ///< sum of these, what preloads do alone counted once
   Vector6 air = Vector6::Zero();            ///< the emitted target without force
 };
 

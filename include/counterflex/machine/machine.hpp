@@ -181,8 +181,9 @@ struct Tool {
   std::optional<double> flute{};     ///< m: from the tip to the end of the cutting edges, along the axis
   ToolMaterial material = ToolMaterial::carbide;
   ToolStiffness from = ToolStiffness::rigid;
-  std::vector<Element> yields{};  ///< from the rigid tool's tip to the tip, in the tip's axes; empty: rigid
-  bool in_file = true;            ///< else all that is known of it is the length, from a tool table
+  std::vector<Element> yields{};    ///< from the rigid tool's tip to the tip, in the tip's axes; empty: rigid
+  std::optional<PointMass> mass{};  ///< of tool and holder, its place from the tip in the tip's axes
+  bool in_file = true;              ///< else all that is known of it is the length, from a tool table
 };
 
 /// Components of the tip pose, in the order of six-vectors.
@@ -239,6 +240,21 @@ struct Gravity {
   Location reference_at;        ///< where the file sets `true_at_home`
 };
 
+/// A part that deflects with its fixture. It is fixed to M through one spring; the tip's deviation is
+/// relative to it.
+struct Fixture {
+  Pose X_MF;                    ///< F: where the spring is, and its axes
+  Matrix6 C = Matrix6::Zero();  ///< of the spring (SI), axes of F, symmetric positive semidefinite
+};
+
+/// How the tip of the unloaded machine moves with temperature, as a shop measures it with a probe and a
+/// thermometer. Linear between the temperatures.
+struct ThermalTable {
+  std::vector<double> temperatures{};  ///< degrees Celsius, increasing
+  std::vector<Vector3> shift{};        ///< there: of the whole machine against the part, axes of M (m)
+  std::vector<double> growth{};        ///< there: of the spindle, from the spindle to the tip (m)
+};
+
 struct Machine {
   std::string name;
   std::vector<Component> controlled;  ///< as many as there are actuators, or none
@@ -265,6 +281,11 @@ struct Machine {
   /// Reference point in the frame where the chains end: not zero for a machine with a tool that bends (m).
   Vector3 p_EP = Vector3::Zero();
   std::vector<Chain> chains;
+  bool ends_with_tool_mass = false;  ///< the last element of the first chain is the mass of [tool]
+  std::optional<Fixture> fixture;
+  std::optional<ThermalTable> thermal;
+  std::optional<double>
+      temperature;  ///< degrees Celsius: that of `at_temperature`; its errors have the shift
   std::vector<LoadLimits> load_limits;         ///< by chain; empty: the file gives none
   std::vector<ParameterStatement> parameters;  ///< in the order of the file
 };
@@ -278,11 +299,22 @@ bool controls_pose(const Machine& machine);
 /// The machine without its assembly errors, error tables and reversal errors.
 Machine perfect(const Machine& machine);
 
+/// What a thermal table gives at a temperature (degrees Celsius) inside of it.
+struct ThermalShift {
+  Vector3 shift = Vector3::Zero();
+  double growth = 0;
+};
+ThermalShift thermal_shift(const ThermalTable& table, double temperature);
+
+/// The machine at a temperature inside of its thermal table, which it has: shift and growth become errors at
+/// the beginning and the end of its chains.
+Machine at_temperature(const Machine& machine, double temperature);
+
 /// kg, masses in branches of groups included.
 double total_mass(const Branch& branch);
 double total_mass(const Machine& machine);
 
-/// Whether weights act on it: there are masses, and something pulls at them.
+/// Whether weights act on it: there are masses, those of tools included, and something pulls at them.
 bool weighs(const Machine& machine);
 /// All numbered actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);

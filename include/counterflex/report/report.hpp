@@ -57,7 +57,7 @@ struct WorstPlace {
 
 /// The sizes of what a deviation is made of: norms, in mm.
 struct DeviationParts {
-  double geometry_mm = 0, load_mm = 0, gravity_mm = 0;
+  double geometry_mm = 0, load_mm = 0, fixture_mm = 0, gravity_mm = 0;
   double discrepancy_mm = 0;  ///< of the deviation from the superposition of its causes
   double preloads_mm = 0;
 };
@@ -81,8 +81,8 @@ struct Largest {
 struct SourcesAtWorst {
   int line = 0;
   Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
-  Vector3 geometry_mm = Vector3::Zero(), load_mm = Vector3::Zero(), gravity_mm = Vector3::Zero(),
-          preloads_mm = Vector3::Zero();
+  Vector3 geometry_mm = Vector3::Zero(), load_mm = Vector3::Zero(), fixture_mm = Vector3::Zero(),
+          gravity_mm = Vector3::Zero(), preloads_mm = Vector3::Zero();
   Vector3 superposition_mm = Vector3::Zero();  ///< sum of these
   Vector3 before_mm = Vector3::Zero();
 };
@@ -96,6 +96,7 @@ struct Sources {
   std::optional<DeviationStatistics> gravity;  ///< none for a machine without masses
   DeviationStatistics superposition;
   std::optional<DeviationStatistics> preloads{};  ///< none where preloads move nothing
+  std::optional<DeviationStatistics> fixture{};   ///< none where the part does not deflect
 };
 
 /// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no
@@ -250,6 +251,7 @@ struct RunReport {
   std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
   std::string tools_assumed;    ///< their stiffness in words; empty without any
   std::string gravity;          ///< which weights were taken to act, in words; empty without any
+  std::string thermal;          ///< the shift by temperature in words; empty for a machine without a table
   std::vector<std::string> already_corrected;  ///< by the control, as the machine file states
   std::vector<std::string> not_modelled;       ///< what else moves the tip of a real machine, one phrase each
   SanityChecks sanity{};                       ///< filled by the caller, who knows the machine's model

@@ -33,7 +33,7 @@ struct Measures {
   DeviationTally before, after, geometry, load, gravity, superposition;
   DeviationTally rest;              ///< before, without the common shift
   std::map<long, ToolTally> tools;  ///< by number
-  DeviationTally preloads;
+  DeviationTally preloads, fixture;
   DeviationTally without_force;
   std::optional<SourcesAtWorst> at_worst;  ///< where `before` is largest
   Largest air, correction;

@@ -86,7 +86,8 @@ struct Mechanism {
   /// The least distances of positions in tables of errors of motion (m, rad).
   double error_spacing = std::numeric_limits<double>::infinity();
   double error_spacing_angle = std::numeric_limits<double>::infinity();
-  double stiffest = 0;  ///< k_max, N/m (rotational stiffness divided by l^2)
+  std::optional<Fixture> fixture;  ///< of the part: no solver knows of it, see statics/fixture.hpp
+  double stiffest = 0;             ///< k_max, N/m (rotational stiffness divided by l^2)
 };
 
 /// The series of `machine`, without home: `prepare` in nominal.hpp also finds the home configuration.

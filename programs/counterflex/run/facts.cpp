@@ -31,6 +31,7 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
   if (options.evaluate) values.push_back({"evaluate", true});
   if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
   for (const std::string& work : options.work) values.push_back({"work", work});
+  if (options.temperature) values.push_back({"temperature-C", *options.temperature});
   for (const auto& [number, length_mm] : options.tool_lengths_mm)
     values.push_back({"tool-length", fmt::format("T{}={}", number, length_mm)});
   return values;

@@ -31,6 +31,24 @@ void override_work(const Options& options, Machine& machine) {
   }
 }
 
+/// At the temperature of the options. A machine without a table has no temperature.
+Machine at_temperature_of(const Options& options, Machine machine) {
+  if (!options.temperature) return machine;
+  if (!machine.thermal)
+    throw InputError(ErrorKind::usage, {},
+                     "--temperature-C needs [thermal] in the machine file: the shift of the tip by "
+                     "temperature");
+  const std::vector<double>& known = machine.thermal->temperatures;
+  const double t = *options.temperature;
+  if (!(t >= known.front() && t <= known.back()))
+    throw InputError(
+        ErrorKind::usage, {},
+        fmt::format("--temperature-C is {:.6g}; [thermal] of the machine file is known from {:.6g} "
+                    "to {:.6g}",
+                    t, known.front(), known.back()));
+  return at_temperature(machine, t);
+}
+
 std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine) {
   if (options.units || machine == nullptr || machine->control.units.empty()) return options.units;
   return machine->control.units == "inch" ? LengthUnit::inches : LengthUnit::millimetres;
@@ -112,6 +130,7 @@ MachineInput read_machine_input(const Options& options) {
   const std::string name = shown_name(options.machine);
   MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
   override_work(options, input.machine);
+  input.machine = at_temperature_of(options, std::move(input.machine));
   input.model = prepare(input.machine);
   refuse_home(input.model, input.machine);
   return input;

@@ -51,7 +51,7 @@ void add_forces(CLI::App& app, Options& options) {
 void add_reading(CLI::App& app, Options& options) {
   add_settings(app, options,
                {"dialect", "units", "integer-words", "arc-centres", "evaluate", "expand-subprograms", "data",
-                "work", "tool-table", "tool-length"});
+                "work", "tool-table", "tool-length", "temperature-C"});
 }
 
 void add_config(CLI::App& app, Options& options) {

@@ -143,6 +143,7 @@ struct Options {
   std::vector<std::string> work;           ///< "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", or "machine"
   std::optional<std::string> tool_table;   ///< a file
   std::map<long, double> tool_lengths_mm;  ///< of --tool-length
+  std::optional<double> temperature;       ///< degrees Celsius
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m

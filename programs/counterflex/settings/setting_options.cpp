@@ -143,6 +143,10 @@ const std::array option_table{
     SettingOption{"tool-length", "--tool-length", "T1=LENGTH", group::reading,
                   "The length of a tool in mm; overrides tool table and machine file; may be repeated", "",
                   true, take_tool_length},
+    SettingOption{
+        "temperature-C", "--temperature-C", "TEMPERATURE", group::common,
+        "The temperature at which [thermal] of the machine file shifts the machine", "", false,
+        [](Text name, Text text, Options& options) { options.temperature = number_of(name, text); }},
     SettingOption{"method", "--method", "direct|nested|linear", group::correction,
                   "How targets are solved (default direct)", "direct", false, take_method},
     SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH", group::common,

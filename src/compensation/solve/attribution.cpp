@@ -56,6 +56,17 @@ bool any_machine(std::span<const ForwardPlace> places, bool (*is)(const Mechanis
   return false;
 }
 
+// What the fixture's deflection alone is: of a rigid, perfect machine against the part.
+void add_fixture(const Solved& at) {
+  for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
+    const ForwardPlace& place = at.places[i];
+    if (!knows_before(at.waypoints[i]) || !place.model->mechanism.fixture) continue;
+    const Pose command{place.wanted.R, place.original.p};
+    at.waypoints[i].causes->fixture =
+        deviation(inverse(at.solver.part(*place.model, place.F, command)) * command, command);
+  }
+}
+
 void add_sources(const Solved& at) {
   const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
     deviations(at, command, stage, [&](std::size_t i, const Vector6& d, ForwardAnswer&&) {
@@ -69,14 +80,15 @@ void add_sources(const Solved& at) {
     add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
   const bool weight = any_machine(at.places, has_weight);
   if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
+  add_fixture(at);
   for (Waypoint& w : at.waypoints) {
     if (!knows_before(w)) continue;
     Causes& c = *w.causes;
     const Vector6 preloads = c.superposition;  // act in each of the others, too
     c.geometry -= preloads;
-    c.load -= preloads;
+    c.load -= preloads + c.fixture;
     if (weight) c.gravity -= preloads;
-    c.superposition = preloads + c.geometry + c.load + c.gravity;
+    c.superposition = preloads + c.geometry + c.load + c.fixture + c.gravity;
   }
 }
 

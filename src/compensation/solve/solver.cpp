@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <limits>
 
+#include "counterflex/statics/fixture.hpp"
 #include "counterflex/statics/theory.hpp"
 
 namespace counterflex {
@@ -118,8 +119,56 @@ void PlaceSolver::wanted(std::span<const TipPosition> requests, std::span<Wanted
   }
 }
 
+Pose PlaceSolver::part(const Model& model, const Vector6& F, const Pose& X_MT) {
+  const Mechanism& mechanism = model.mechanism;
+  if (!mechanism.fixture) return {};
+  Vector6 at_tip = F;
+  if (at_platform_) {
+    const Vector3 arm = X_MT.R * (inverse(mechanism.X_PT) * mechanism.p_EP);
+    at_tip.tail<3>() += arm.cross(Vector3(F.head<3>()));
+  }
+  return deflected_part(*mechanism.fixture, at_tip, X_MT.p);
+}
+
 void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<TargetAnswer> answers,
                           StopAt stop) {
+  if (requests.empty() || !requests.front().model->mechanism.fixture)
+    return machine_targets(requests, answers, stop);
+  // The tip has to be where the loaded part has the wanted place.
+  moved_.assign(requests.begin(), requests.end());
+  for (TargetRequest& request : moved_) {
+    const Pose wanted = of(*request.model).pose(request.p_MT, request.R_MT),
+               moved = part(*request.model, request.F, wanted) * wanted;
+    request.p_MT = moved.p;
+    if (request.R_MT) request.R_MT = moved.R;
+  }
+  machine_targets(moved_, answers, stop);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    TargetAnswer& answer = answers[i];
+    for (int c = 0; c < 3; ++c)
+      if (!controls(requests[i].model->mechanism, c)) answer.target[c] = requests[i].p_MT[c];
+    if (requests[i].R_MT)
+      answer.turn = rotation_between(exp_so3(answer.turn) * *moved_[i].R_MT, *requests[i].R_MT);
+  }
+}
+
+void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
+                           StopAt stop) {
+  machine_forwards(requests, answers, stop);
+  for (std::size_t i = 0; i < requests.size(); ++i) {
+    const ForwardRequest& request = requests[i];
+    if (!request.model->mechanism.fixture || answers[i].status != Status::converged) continue;
+    const Pose X_MT = answers[i].X_MT;
+    // The cut is at the tip's place on the unloaded part: the second pass has it to rounding.
+    const Matrix3 R = of(*request.model).pose(request.target, request.R).R;
+    for (int pass = 0; pass < 3; ++pass)
+      answers[i].X_MT =
+          inverse(part(*request.model, request.stage.load * request.F, {R, answers[i].X_MT.p})) * X_MT;
+  }
+}
+
+void PlaceSolver::machine_targets(std::span<const TargetRequest> requests, std::span<TargetAnswer> answers,
+                                  StopAt stop) {
   for (std::size_t count = 0; !requests.empty();
        requests = requests.subspan(count), answers = answers.subspan(count)) {
     count = length_of_run(requests);
@@ -143,8 +192,8 @@ void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<Tar
   }
 }
 
-void PlaceSolver::forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
-                           StopAt stop) {
+void PlaceSolver::machine_forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
+                                   StopAt stop) {
   for (std::size_t count = 0; !requests.empty();
        requests = requests.subspan(count), answers = answers.subspan(count)) {
     count = length_of_run(requests);
@@ -229,7 +278,8 @@ Status PlaceSolver::join(const TipPosition& from, const TipPosition& to) {
 LineBend PlaceSolver::bend_along(const Model& model, const BatchLine& line) {
   constexpr double unknown = std::numeric_limits<double>::infinity();
   OfModel& m = of(model);
-  return m.batch ? m.batch->bend_along(line) : LineBend{unknown, unknown};
+  // The bounds are those of the machine alone.
+  return m.batch && !model.mechanism.fixture ? m.batch->bend_along(line) : LineBend{unknown, unknown};
 }
 
 WantedPose PlaceSolver::wanted_alone(OfModel& m, const TipPosition& at) {

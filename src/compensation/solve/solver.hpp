@@ -10,6 +10,8 @@
 
 namespace counterflex {
 
+// Poses of the tip are relative to the part: where its fixture deflects, M is the frame of the unloaded part.
+
 /// A place where the tip is wanted (M, m), the wrench there (N, N m; axes of M), and the machine. With an
 /// orientation the tip is wanted in it, too; without one home's is commanded where the machine controls it.
 struct TargetRequest {
@@ -79,6 +81,10 @@ class PlaceSolver {
   void forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
                 StopAt stop = StopAt::first_failure);
 
+  /// Pose of the loaded part's frame under the wrench on the tool at a place of the cut; identity where no
+  /// fixture deflects.
+  Pose part(const Model& model, const Vector6& F, const Pose& X_MT);
+
   /// The actuators of the nominal machine at positions (m, rad); rotary ones but for full turns. Empty where
   /// it does not reach one.
   std::vector<Eigen::VectorXd> actuators(std::span<const TipPosition> positions);
@@ -99,6 +105,9 @@ class PlaceSolver {
 
  private:
   struct OfModel;
+  void machine_targets(std::span<const TargetRequest> requests, std::span<TargetAnswer> answers, StopAt stop);
+  void machine_forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
+                        StopAt stop);
   OfModel& of(const Model& model);
   static const Configuration& nominal_near(OfModel& m, const TipPosition& at);
   WantedPose wanted_alone(OfModel& m, const TipPosition& at);
@@ -112,6 +121,7 @@ class PlaceSolver {
   const bool at_platform_;
   const Method method_;
   std::map<const Model*, std::unique_ptr<OfModel>> models_;
+  std::vector<TargetRequest> moved_;  ///< to where the loaded part is
   std::vector<BatchRequest> requests_;
   std::vector<BatchAnswer> answers_;
   std::vector<TurnedPlace> places_;

@@ -53,7 +53,7 @@ std::string spindle_phrase(const Pose& X_PS) {
 }
 
 bool is_length_alone(const Tool& tool) {
-  return tool.length && !tool.diameter && !tool.stickout && !tool.flute && tool.yields.empty();
+  return tool.length && !tool.diameter && !tool.stickout && !tool.flute && tool.yields.empty() && !tool.mass;
 }
 
 /// Lists the tools that have only a length.
@@ -74,6 +74,8 @@ std::string tool_phrase(const Tool& tool) {
   add(tool.diameter, "diameter");
   add(tool.stickout, "sticking out");
   add(tool.flute, "of flutes");
+  if (tool.mass)
+    text += fmt::format("{} at {} from its tip, ", phrase_mass(tool.mass->kg), phrase_mm(tool.mass->at));
   return text + stiffness_phrase(tool);
 }
 
@@ -103,6 +105,19 @@ std::string gravity_phrase(const Machine& machine) {
   return fmt::format("{:.9g} {:.9g} {:.9g} m/s2 on {}; the control's zero was set {}", g.x(), g.y(), g.z(),
                      kg > 0 ? phrase_mass(kg) : "no mass",
                      machine.gravity.true_at_home ? "under the weights at home" : "unloaded");
+}
+
+std::string fixture_phrase(const Fixture& fixture) {
+  std::string text = "the part deflects at " + phrase_mm(fixture.X_MF.p);
+  for (int i = 0; i < 3; ++i)
+    text +=
+        fmt::format("{} {} {:.3g}", i == 0 ? ":" : ",", component_names[i], 1 / fixture.C(i, i) / N_per_um);
+  return text + " N/um for a force there, in its axes";
+}
+
+std::string thermal_phrase(const ThermalTable& thermal) {
+  return fmt::format("shift of the tip from {:.6g} to {:.6g} degrees Celsius, applied with --temperature-C",
+                     thermal.temperatures.front(), thermal.temperatures.back());
 }
 
 std::string limits_phrase(const LoadLimits& limits) {
@@ -153,6 +168,8 @@ void describe_settings(const Machine& machine, std::string& text) {
     line("joints", "joint values of programs are the shown values; stated by the file");
   if (!machine.parameters.empty()) line("numbers", numbers_phrase(machine));
   if (is_unmeasured(machine)) line("stiffness", unmeasured_phrase(machine));
+  if (machine.fixture) line("fixture", fixture_phrase(*machine.fixture));
+  if (machine.thermal) line("thermal", thermal_phrase(*machine.thermal));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
   if (machine.work_is_machine_frame)

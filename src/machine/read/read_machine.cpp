@@ -6,6 +6,7 @@
 #include "counterflex/files/text.hpp"
 #include "machine/corrected.hpp"
 #include "machine/read/read_chains.hpp"
+#include "machine/read/read_fixture.hpp"
 #include "machine/read/read_load_limits.hpp"
 #include "machine/read/read_parameters.hpp"
 #include "machine/read/read_settings.hpp"
@@ -48,6 +49,17 @@ void check_home(const toml::table& document, const Source& source, const Machine
               "a machine of more than one chain needs [home], the pose where its inverse kinematics starts");
 }
 
+/// The mass of [tool] is fixed to the platform, at the end of the first chain.
+void add_tool_mass(const toml::table& document, const Source& source, Machine& machine) {
+  const toml::node* tool = document.get("tool");
+  const toml::node* node = tool == nullptr ? nullptr : tool->as_table()->get("mass");
+  if (node == nullptr) return;
+  PointMass mass = read_tool_mass(*node, source);
+  mass.at = machine.X_PT * mass.at;
+  machine.chains.front().elements.push_back(mass);
+  machine.ends_with_tool_mass = true;
+}
+
 }  // namespace
 
 Machine read_machine(std::string_view text, const std::string& file) {
@@ -55,9 +67,10 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const toml::table document = source.parse();
   check_format(document, source);
   check_keys(document,
-             {"format", "name", "controlled", "home", "gravity_m_s2", "gravity_reference", "tool", "spindle",
-              "tools", "work", "program", "controller", "limits", "parameters", "springs", "error_tables",
-              "branches", "templates", "chain"},
+             {"format",   "name",       "controlled", "home",       "gravity_m_s2", "gravity_reference",
+              "tool",     "spindle",    "tools",      "work",       "fixture",      "thermal",
+              "program",  "controller", "limits",     "parameters", "springs",      "error_tables",
+              "branches", "templates",  "chain"},
              "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
@@ -69,10 +82,13 @@ Machine read_machine(std::string_view text, const std::string& file) {
   read_spindle(document, source, machine);
   read_tools(document, source, machine);
   read_work(document, source, machine);
+  read_fixture(document, source, machine);
+  read_thermal(document, source, machine);
   read_program(document, source, machine);
   read_controller(document, source, machine);
   read_limits(document, source, machine);
   machine.chains = read_chains(document, source);
+  add_tool_mass(document, source, machine);
   convert_homes(machine);
   read_load_limits(document, source, machine);
   read_parameters(document, source, machine);

@@ -118,7 +118,7 @@ void read_tool(const toml::table& document, const Source& source, Machine& machi
   const toml::node* node = document.get("tool");
   machine.tool_at = node != nullptr ? source.at(key_of(document, "tool").source()) : Location{source.file()};
   if (node == nullptr) return;
-  machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted", "spindle_axis"});
+  machine.X_PT = read_transform(*node, "[tool]", {source}, {"allow_inverted", "spindle_axis", "mass"});
   if (const toml::node* axis = node->as_table()->get("spindle_axis")) {
     const std::string name = as_choice(*axis, "spindle_axis", spindle_axis_names, source);
     const auto place = std::ranges::find(spindle_axis_names, name) - spindle_axis_names.begin();

@@ -13,7 +13,7 @@ namespace {
 
 const std::vector<std::string_view> tool_keys = {"length_mm",     "diameter_mm",     "stickout_mm",
                                                  "flute_mm",      "holder_N_per_um", "stiffness_si",
-                                                 "compliance_si", "material"};
+                                                 "compliance_si", "material",        "mass"};
 
 /// T3 or 3.
 long number_of(const toml::key& key, const Source& source) {
@@ -83,11 +83,22 @@ Tool read_one_tool(const toml::node& node, const std::string& name, const Source
   if (const toml::node* material = table.get("material"))
     if (as_choice(*material, "material", {"carbide", "steel"}, source) == "steel")
       tool.material = ToolMaterial::steel;
+  if (const toml::node* mass = table.get("mass")) tool.mass = read_tool_mass(*mass, source);
   read_stiffness_of(table, name, source, tool);
   return tool;
 }
 
 }  // namespace
+
+PointMass read_tool_mass(const toml::node& node, const Source& source) {
+  const toml::table& table = as_table(node, "mass", source);
+  check_keys(table, {"kg", "at_mm"}, "the mass of a tool", source);
+  PointMass mass;
+  mass.name = "tool";
+  mass.kg = as_positive(required(table, "kg", "the mass of a tool", node, source), {"kg"}, {source});
+  if (const toml::node* at = table.get("at_mm")) mass.at = as_vector3(*at, "at_mm", {source}) * mm;
+  return mass;
+}
 
 void read_tools(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("tools");

@@ -58,16 +58,18 @@ Json largest_json(const std::optional<Largest>& largest) {
   return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
 }
 
-/// A cause that acts nowhere is null.
+/// A cause that acts nowhere is null; without a fixture there is no entry for it.
 Json sources_at_json(const SourcesAtWorst& at, bool weights, bool preloads) {
-  return {{"line", at.line},
-          {"place_mm", numbers(at.place_mm, digits)},
-          {"geometry_mm", numbers(at.geometry_mm, digits)},
-          {"load_mm", numbers(at.load_mm, digits)},
-          {"gravity_mm", weights ? numbers(at.gravity_mm, digits) : Json(nullptr)},
-          {"preloads_mm", preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
-          {"superposition_mm", numbers(at.superposition_mm, digits)},
-          {"before_mm", numbers(at.before_mm, digits)}};
+  Json json = {{"line", at.line},
+               {"place_mm", numbers(at.place_mm, digits)},
+               {"geometry_mm", numbers(at.geometry_mm, digits)},
+               {"load_mm", numbers(at.load_mm, digits)},
+               {"gravity_mm", weights ? numbers(at.gravity_mm, digits) : Json(nullptr)},
+               {"preloads_mm", preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
+               {"superposition_mm", numbers(at.superposition_mm, digits)},
+               {"before_mm", numbers(at.before_mm, digits)}};
+  if (!at.fixture_mm.isZero(0)) json["fixture_mm"] = numbers(at.fixture_mm, digits);
+  return json;
 }
 
 Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
@@ -78,12 +80,14 @@ Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& 
 Json sources_json(const RunReport& report) {
   const std::optional<Sources>& sources = report.sources;
   if (!sources) return nullptr;
-  return {{"geometry", statistics_json(sources->geometry)},
-          {"load", statistics_json(sources->load)},
-          {"gravity", optional_statistics(sources->gravity)},
-          {"superposition", statistics_json(sources->superposition)},
-          {"preloads", optional_statistics(sources->preloads)},
-          {"at_worst", at_worst_json(*sources, report.at_worst)}};
+  Json json = {{"geometry", statistics_json(sources->geometry)},
+               {"load", statistics_json(sources->load)},
+               {"gravity", optional_statistics(sources->gravity)},
+               {"superposition", statistics_json(sources->superposition)},
+               {"preloads", optional_statistics(sources->preloads)},
+               {"at_worst", at_worst_json(*sources, report.at_worst)}};
+  if (sources->fixture) json["fixture"] = statistics_json(*sources->fixture);
+  return json;
 }
 
 /// Null if part of the path is unknown: its largest value would be misleading.
@@ -283,11 +287,13 @@ Json operations_json(const std::vector<OperationReport>& operations) {
 
 Json parts_json(const std::optional<DeviationParts>& parts, bool weights, bool preloads) {
   if (!parts) return nullptr;
-  return {{"geometry_mm", number(parts->geometry_mm, digits)},
-          {"load_mm", number(parts->load_mm, digits)},
-          {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
-          {"preloads_mm", preloads ? number(parts->preloads_mm, digits) : Json(nullptr)},
-          {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
+  Json json = {{"geometry_mm", number(parts->geometry_mm, digits)},
+               {"load_mm", number(parts->load_mm, digits)},
+               {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
+               {"preloads_mm", preloads ? number(parts->preloads_mm, digits) : Json(nullptr)},
+               {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
+  if (parts->fixture_mm > 0) json["fixture_mm"] = number(parts->fixture_mm, digits);
+  return json;
 }
 
 /// The place of a row is the place of the deviation that orders the rows.
@@ -328,6 +334,7 @@ Json assumptions_json(const RunReport& report) {
   if (!report.unmeasured.empty()) json["unmeasured"] = report.unmeasured;
   if (!report.tools.empty()) json["tools"] = report.tools_assumed;
   if (!report.gravity.empty()) json["gravity"] = report.gravity;
+  if (!report.thermal.empty()) json["thermal"] = report.thermal;
   if (!report.already_corrected.empty()) json["already_corrected"] = report.already_corrected;
   json["not_modelled"] = report.not_modelled;
   return json;

@@ -114,6 +114,7 @@
   const partNames = {
     geometry_mm: 'Errors of assembly',
     load_mm: 'Cutting force',
+    fixture_mm: 'Deflection of the part',
     gravity_mm: 'Weight of the parts',
     preloads_mm: 'Preloads',
     discrepancy_mm: 'Discrepancy',
@@ -123,12 +124,13 @@
   const partSentences = {
     geometry_mm: 'mostly errors of assembly',
     load_mm: 'mostly the cutting force bends the machine',
+    fixture_mm: 'mostly the cutting force bends part and fixture',
     gravity_mm: 'mostly the weight of its parts bends the machine',
     preloads_mm: 'mostly preloaded joints and springs bend the machine',
     discrepancy_mm: 'mostly the interaction of assembly errors and force',
   };
 
-  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', gravity_mm: 'weight', preloads_mm: 'preloads', discrepancy_mm: 'both together'};
+  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', fixture_mm: 'fixture', gravity_mm: 'weight', preloads_mm: 'preloads', discrepancy_mm: 'both together'};
 
   /** The known parts of a deviation: [{key, name, mm}], in the order above. */
   function parts(causes) {

@@ -45,8 +45,12 @@ void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<Source
 
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
   const auto size_mm = [](const Vector6& deviation) { return deviation.head<3>().norm() / mm; };
-  return {size_mm(causes.geometry), size_mm(causes.load), size_mm(causes.gravity),
-          size_mm(w.before - causes.superposition), size_mm(preloads_of(causes))};
+  return {size_mm(causes.geometry),
+          size_mm(causes.load),
+          size_mm(causes.fixture),
+          size_mm(causes.gravity),
+          size_mm(w.before - causes.superposition),
+          size_mm(preloads_of(causes))};
 }
 
 bool before_line(const WorstRow& row, int line) {
@@ -61,6 +65,7 @@ SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes) {
           w.p_MT / mm,
           in_mm(causes.geometry),
           in_mm(causes.load),
+          in_mm(causes.fixture),
           in_mm(causes.gravity),
           in_mm(preloads_of(causes)),
           in_mm(causes.superposition),
@@ -229,6 +234,7 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
   m_.geometry.add(sample(w, causes.geometry, weight));
   m_.load.add(sample(w, causes.load, weight));
   m_.gravity.add(sample(w, causes.gravity, weight));
+  m_.fixture.add(sample(w, causes.fixture, weight));
   m_.preloads.add(sample(w, preloads_of(causes), weight));
   m_.superposition.add(sample(w, causes.superposition, weight));
   keep_at_worst(w, causes, m_.at_worst);

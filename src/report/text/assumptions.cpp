@@ -116,6 +116,7 @@ std::vector<UsedTool> used_tools(const Machine& machine, const std::vector<long>
     const Tool& tool = found->second;
     change = change || changes_model(machine, tool);
     UsedTool& used = tools.emplace_back(UsedTool{number, {}, {}, stiffness_phrase(tool)});
+    if (tool.mass && weighs(machine)) used.stiffness += fmt::format(", {:.6g} kg", tool.mass->kg);
     if (tool.length) used.length_mm = *tool.length / mm;
     if (!tool.yields.empty()) used.radial_N_per_um = radial_stiffness(tool) / N_per_um;
   }
@@ -169,8 +170,12 @@ std::string backlash(const Machine& machine) {
 }  // namespace
 
 std::vector<std::string> not_modelled(const Machine& machine) {
-  return {backlash(machine), "heat: growth of spindle and frame, from the first part of the day to the last",
-          "part and fixture: their bending and clamping",
+  return {backlash(machine),
+          machine.temperature
+              ? "heat: what it does beside the shift of [thermal]"
+              : "heat: growth of spindle and frame, from the first part of the day to the last",
+          machine.fixture ? "part and fixture: what they do beside the stiffness of [fixture]"
+                          : "part and fixture: their bending and clamping",
           "dynamics: following error, rounded corners, chatter",
           turns_joints(machine)
               ? own_corrections_of_arm(machine)
@@ -178,11 +183,31 @@ std::vector<std::string> not_modelled(const Machine& machine) {
                 "remove must not be in the machine file"};
 }
 
+std::string thermal_in_words(const Machine& machine) {
+  if (!machine.thermal) return "";
+  if (!machine.temperature)
+    return "The machine file has [thermal], but --temperature-C is not given: no thermal shift acts.";
+  const ThermalShift at = thermal_shift(*machine.thermal, *machine.temperature);
+  return fmt::format(
+      "The machine was taken to be at {:.6g} degrees Celsius: it is shifted by {:.3g}, {:.3g}, "
+      "{:.3g} um along x, y, z, and the spindle is {:.3g} um longer.",
+      *machine.temperature, at.shift.x() / um + 0.0, at.shift.y() / um + 0.0, at.shift.z() / um + 0.0,
+      at.growth / um + 0.0);
+}
+
+namespace {
+
+bool has_tool_masses(const Machine& machine) {
+  return std::ranges::any_of(machine.tools, [](const auto& entry) { return entry.second.mass.has_value(); });
+}
+
+}  // namespace
+
 std::string gravity_in_words(const Machine& machine) {
   if (!weighs(machine)) return "";
   return fmt::format(
-      "The machine's {:.6g} kg weigh on it, with and without a cut; the control's zero was set {}.",
-      total_mass(machine),
+      "The machine's {:.6g} kg{} weigh on it, with and without a cut; the control's zero was set {}.",
+      total_mass(machine), has_tool_masses(machine) ? ", and the masses of its tools," : "",
       machine.gravity.true_at_home ? "under this weight at home, where the perfect machine has no deviation"
                                    : "unloaded");
 }

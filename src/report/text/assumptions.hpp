@@ -20,6 +20,7 @@ std::string tools_in_words(const std::vector<UsedTool>& tools, const std::vector
 std::vector<std::string> not_modelled(const Machine& machine);
 
 /// Which weights act, and when the control's zero was set; empty without weights.
+std::string thermal_in_words(const Machine& machine);
 std::string gravity_in_words(const Machine& machine);
 
 }  // namespace counterflex

@@ -111,6 +111,7 @@ std::string at_worst_text(const RunReport& report, const char* together) {
   const SourcesAtWorst& at = *report.at_worst;
   std::string text = fmt::format("  where the deviation is largest, line {}:\n", at.line);
   text += source_row("geometry", at.geometry_mm) + source_row("load", at.load_mm);
+  if (sources.fixture) text += source_row("fixture", at.fixture_mm);
   if (sources.gravity) text += source_row("gravity", at.gravity_mm);
   if (sources.preloads) text += source_row("preloads", at.preloads_mm);
   return text + source_row("sum of these", at.superposition_mm) + source_row(together, at.before_mm);
@@ -121,13 +122,14 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
     return line_break() + "For causes along the path add --report NAME or --json.\n";
   if (!report.sources) return "";
   const Sources& sources = *report.sources;
-  const bool two = !sources.gravity && !sources.preloads;
+  const bool two = !sources.gravity && !sources.preloads && !sources.fixture;
   const char* const together = two ? "both acting together" : "all acting together";
   std::string text =
       line_break() + ink.bold("Causes of the deviation") + ", in mm; largest values, each at its own place\n";
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
   text += source_row("geometry: errors of assembly alone", sources.geometry);
   text += source_row("load: cutting forces alone", sources.load);
+  if (sources.fixture) text += source_row("fixture: deflection of the part", *sources.fixture);
   if (sources.gravity) text += source_row("gravity: weights alone", *sources.gravity);
   if (sources.preloads) text += source_row("preloads alone", *sources.preloads);
   text += source_row("superposition: sums at each place", sources.superposition);
@@ -242,7 +244,8 @@ std::string assumptions_text(const RunReport& report, const Ink& ink) {
   return line_break() + ink.bold("Assumptions") + "\n" + wrapped("  ", report.work, 2) +
          (report.datum.empty() ? "" : wrapped("  ", report.datum, 2)) +
          (report.tools.empty() ? "" : wrapped("  ", report.tools_assumed, 2)) +
-         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) + already_corrected_text(report) +
+         (report.gravity.empty() ? "" : wrapped("  ", report.gravity, 2)) +
+         (report.thermal.empty() ? "" : wrapped("  ", report.thermal, 2)) + already_corrected_text(report) +
          not_modelled_text(report);
 }
 

@@ -36,6 +36,7 @@ std::string headline(const RunReport& report, const Ink& ink) {
 std::string causes_text(const SourcesAtWorst& at) {
   std::string text = "assembly " + mm4(at.geometry_mm.norm());
   if (!at.load_mm.isZero()) text += ", force " + mm4(at.load_mm.norm());
+  if (!at.fixture_mm.isZero()) text += ", fixture " + mm4(at.fixture_mm.norm());
   if (!at.gravity_mm.isZero()) text += ", weight " + mm4(at.gravity_mm.norm());
   if (!at.preloads_mm.isZero(1e-9)) text += ", preloads " + mm4(at.preloads_mm.norm());
   return text;

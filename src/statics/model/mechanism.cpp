@@ -133,6 +133,7 @@ Mechanism compile(const Machine& machine) {
   mechanism.shown = shown_actuators(machine);
   mechanism.reversal = reversals(machine);
   mechanism.gravity = machine.gravity.g;
+  mechanism.fixture = machine.fixture;
   const bool weighs = !mechanism.gravity.isZero(0);
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)

@@ -4,6 +4,7 @@
 
 #include <cmath>
 
+#include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "statics/support/laws_weights.hpp"
@@ -89,4 +90,16 @@ TEST_CASE("a gravity compensator pulls along its line of action") {
         commanded + gear_compliance * turned_about_y(end, commanded).cross(Vector3(0, 0, -arm_weight)).y();
     CHECK((turned_about_y(end, alone) - wanted).norm() > 3e-5);  // what the compensator takes
   }
+}
+
+TEST_CASE("the numbers of the compensator in the guide are those of its line at home") {
+  const std::string guide = read_file(COUNTERFLEX_SOURCE_DIR "/programs/guide/machine.md");
+  const Vector3 line = lug - anchor;
+  const double pitch = std::atan2(-line.z(), line.x()) / deg;
+  CHECK(guide.find(fmt::format("xyz_mm = [-400, 0, 300], rpy_deg = [0, {:.10g}, 0]", pitch)) !=
+        std::string::npos);
+  CHECK(guide.find(fmt::format("{{ rigid = {{ rpy_deg = [0, {:.10g}, 0] }} }}", -pitch)) !=
+        std::string::npos);
+  CHECK(guide.find(fmt::format("home_mm = {:.10g}, stiffness_N_per_m = 20000, preload_mm = 700",
+                               line.norm() / mm)) != std::string::npos);
 }

@@ -13,6 +13,7 @@
   const cures = {
     geometry_mm: [ofGeometry, 'Check the errors of assembly in the machine file: units and signs.'],
     load_mm: [ofLoad],
+    fixture_mm: ['Check [fixture] in the machine file: its place and its stiffness.'],
     gravity_mm: ['Check masses and gravity_m_s2 in the machine file.'],
     preloads_mm: ['Check the preloads in the machine file.'],
   };

@@ -42,7 +42,7 @@
   /** The causes at a place of the report, [{key, name, vector}]. */
   function causesOf(place) {
     const {partName} = counterflex.words;
-    const listed = ['geometry', 'load', 'gravity', 'preloads'].filter((base) => place[`${base}_mm`])
+    const listed = ['geometry', 'load', 'fixture', 'gravity', 'preloads'].filter((base) => place[`${base}_mm`])
         .map((base) => ({key: `${base}_mm`, name: partName(`${base}_mm`), vector: place[`${base}_mm`]}));
     const rest = place.before_mm.map((v, k) => v - place.superposition_mm[k]);
     return [...listed, {key: 'discrepancy_mm', name: partName('discrepancy_mm'), vector: rest}];
