@@ -52,6 +52,8 @@ ExitStatus run_command(const Options& options, Console& console) {
       return run_map(options, console);
     case Command::identify:
       return run_identify(options, console);
+    case Command::testcut:
+      return run_testcut(options, console);
     case Command::import:
       return run_import(options, console);
     case Command::batch:

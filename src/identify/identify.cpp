@@ -12,13 +12,11 @@
 #include "identify/fit/fit.hpp"
 #include "identify/fit/frames.hpp"
 #include "identify/hold_out.hpp"
+#include "identify/prior.hpp"
 
 namespace counterflex {
 namespace {
 
-// Standard deviations of parameters for which a machine file states none.
-constexpr double default_position = 1 * mm, default_orientation = 0.1 * deg, default_share = 1;  // of a value
-constexpr double default_reversal = 20 * um, default_reversal_angle = 0.01 * deg;
 constexpr double least_share = 1e-3;  // of a compliance or mass: the lower bound of the fit
 constexpr double identified = 0.5;    // of the prior deviation: larger ones are not identified
 constexpr double strong_correlation = 0.9;
@@ -78,15 +76,6 @@ ParameterSet set_of(const Parameter& parameter, bool is_zero) {
   return is_zero ? ParameterSet::zeros : ParameterSet::geometry;
 }
 
-/// The deviation of a parameter for which the file states none; of a value of zero it has to be absolute.
-double default_prior(const Parameter& parameter) {
-  if (parameter.kind == ParameterKind::position) return default_position;
-  if (parameter.kind == ParameterKind::orientation) return default_orientation;
-  if (parameter.kind == ParameterKind::reversal)
-    return parameter.unit == um ? default_reversal : default_reversal_angle;
-  return default_share * parameter.value;
-}
-
 bool has_directions(const Measurements& measurements) {
   for (const Measurement& row : measurements.rows)
     for (const CommandedState& state : row.states)
@@ -105,15 +94,13 @@ Candidates candidates(const Machine& machine, const Measurements& measurements,
     if (all[i].kind == ParameterKind::reversal && !shows_reversal) continue;
     const ParameterSet set = set_of(all[i], zeros[i]);
     if (!is_in(set, sets)) continue;
-    const auto stated = std::find_if(machine.parameters.begin(), machine.parameters.end(),
-                                     [&](const ParameterStatement& s) { return s.name == all[i].name; });
-    const bool has_sigma = stated != machine.parameters.end() && stated->sigma;
-    if (has_sigma && *stated->sigma == 0) continue;
+    const PriorDeviation known = prior_deviation(machine, all[i]);
+    if (!known.is_default && known.sigma == 0) continue;
     result.varied.push_back(i);
     result.set.push_back(set);
-    result.is_default.push_back(!has_sigma);
+    result.is_default.push_back(known.is_default);
     before.push_back(all[i].value);
-    prior.push_back(has_sigma ? *stated->sigma : default_prior(all[i]));
+    prior.push_back(known.sigma);
     least.push_back(is_geometry(all[i].kind)                 ? -std::numeric_limits<double>::infinity()
                     : all[i].kind == ParameterKind::reversal ? 0
                                                              : least_share * all[i].value);
@@ -176,7 +163,8 @@ std::optional<double> repeatability_of(const Measurements& measurements) {
     same[{row.session, state}].push_back(&row);
   }
   for (const auto& [key, rows] : same) {
-    if (rows.size() < 2 || !rows[0]->is_length) continue;
+    const bool is_feature = measurements.sessions[key.first].kind == MeasurementKind::cmm_feature;
+    if (rows.size() < 2 || !rows[0]->is_length || is_feature) continue;
     Vector3 mean = Vector3::Zero();
     double value = 0;
     for (const Measurement* row : rows) {
@@ -467,16 +455,14 @@ void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result
 Identification identify(const Machine& machine, const Measurements& measurements,
                         const IdentifyOptions& options) {
   check_sessions(measurements);
-  const Model model = prepare(machine);
-  const States states = nominal_states(model, measurements, options.threads);
+  const States states = nominal_states(machine, measurements, options.threads);
   const Candidates candidate = candidates(machine, measurements, options.sets);
   if (candidate.varied.empty())
     throw InputError(ErrorKind::machine_or_force, {},
                      "the machine file has no parameter of the sets to fit; add error slots or compliances");
-  FitProblem problem{machine,         measurements,    states,         {}, candidate.varied, candidate.before,
-                     candidate.prior, candidate.least, options.threads};
-  for (const Configuration& nominal : states.nominal)
-    problem.X_MT_nominal.push_back(tip(model.mechanism, nominal));
+  const FitProblem problem{machine,         measurements,     states,
+                           states.X_MT,     candidate.varied, candidate.before,
+                           candidate.prior, candidate.least,  options.threads};
   std::vector<Configuration> loaded;
   const std::vector<SessionFrames> frames =
       first_frames(problem, responses(machine, candidate.varied, states, options.threads, loaded));

@@ -24,6 +24,7 @@ enum class MeasurementKind {
   scale,           ///< motion of a linear axis over the commanded one, less 1
   clamped_torque,  ///< turn of a rotary axis under a torque, the flange clamped
   ballbar,         ///< numbers of a ball bar's report; its rows become squareness, reversal and scale
+  cmm_feature,     ///< position or size of a feature of a coupon, less the nominal one
 };
 
 /// How files and people name a kind: "tracker_point".
@@ -41,13 +42,20 @@ struct CommandedState {
   Vector6 F = Vector6::Zero();  ///< on the tip, axes of M (N, N m)
   Directions directions{};      ///< in which the actuators moved last
   std::optional<ClampedTorque> clamped{};
+  long tool = 0;  ///< in the spindle, of [tools]; 0: that of [tool]
+};
+
+/// What a feature of a coupon shows of the tip at one of its places.
+struct FeaturePlace {
+  Vector3 p_MT = Vector3::Zero();    ///< wanted tip, M (m)
+  Vector3 weight = Vector3::Zero();  ///< of the deviation there, axes of M
 };
 
 struct Measurement {
   std::size_t session = 0;  ///< index into `Measurements::sessions`
   Location at;              ///< of its row
   /// One; two of a push, a weight, a bar, a reversal (after a positive, a negative motion) or a scale; four
-  /// of a squareness.
+  /// of a squareness; as many as places of a feature.
   std::vector<CommandedState> states{};
   Pose X{};                             ///< tracker: measured, in the session's frame
   Vector3 direction = Vector3::Zero();  ///< of the gauge, or along or about the axis; unit vector in M
@@ -55,6 +63,8 @@ struct Measurement {
   double value = 0;                     ///< m; else rad, or m/m of a scale
   double sigma = 0;                     ///< standard deviation of value
   double sigma_angle = 0;               ///< of an orientation (rad)
+  std::vector<FeaturePlace> places{};   ///< of a feature, by state
+  double radius_share = 0;              ///< of a feature: of the deviation of the tool's radius
 };
 
 /// Rows that share their unknown frames: one set-up of a tracker, one plane.
@@ -68,11 +78,12 @@ struct Session {
 struct Measurements {
   std::vector<Session> sessions;
   std::vector<Measurement> rows;
+  std::size_t empty_rows = 0;  ///< of sheets, without a measured value
 };
 
-/// Reads a measurement file: CSV with the column names of the guide, or a TOML file of the format
-/// "counterflex-measurements 1", which names a CSV file and defines its columns. Adds to `all`. Throws
-/// `InputError` (ErrorKind::machine_or_force) with line and column.
+/// Reads a measurement file: CSV with the column names of the guide, a filled sheet of a coupon, or a TOML
+/// file of the format "counterflex-measurements 1", which names a CSV file and defines its columns. Adds to
+/// `all`. Throws `InputError` (ErrorKind::machine_or_force) with line and column.
 void load_measurements(const std::string& file, const Machine& machine, Measurements& all);
 
 /// The same from CSV text.

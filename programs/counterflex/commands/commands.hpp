@@ -18,6 +18,8 @@ std::optional<ErrorKind> run_analyze(const Options& options, Console& console);
 std::optional<ErrorKind> run_map(const Options& options, Console& console);
 std::optional<ErrorKind> run_forces(const Options& options, Console& console);
 std::optional<ErrorKind> run_identify(const Options& options, Console& console);
+/// Writes a program of a test piece, half of it corrected, and the sheet for what is measured on it.
+std::optional<ErrorKind> run_testcut(const Options& options, Console& console);
 /// Writes a machine file from another description of the machine.
 std::optional<ErrorKind> run_import(const Options& options, Console& console);
 std::optional<ErrorKind> run_check(const Options& options, Console& console);

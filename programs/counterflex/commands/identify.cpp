@@ -87,6 +87,9 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   const MachineInput input = read_machine_input(options);
   Measurements measurements;
   for (const std::string& file : options.identify.data) load_measurements(file, input.machine, measurements);
+  if (measurements.empty_rows > 0)
+    console.note(
+        fmt::format("{} rows of sheets have no measured value and are skipped\n", measurements.empty_rows));
   console.progress("identifying");
   const Identification found = identify(input.machine, measurements, wanted);
   std::optional<FileWriter> machine_file, json_file, page_file;

@@ -251,15 +251,36 @@ void check_output(const Options& options, std::string_view mark) {
   if (!options.force_overwrite) refuse_foreign({marked_file(*options.output, mark)});
 }
 
+namespace {
+
+/// Of files that people edit.
+void refuse_existing(const std::string& output, bool overwrite) {
+  std::error_code error;
+  if (overwrite || !fs::is_regular_file(output, error) || fs::file_size(output, error) == 0) return;
+  throw InputError(ErrorKind::usage, {output},
+                   "the file exists; give another name, or --force-overwrite to replace it");
+}
+
+}  // namespace
+
 void check_machine_output(const std::string& output, const std::vector<std::string>& inputs, bool overwrite) {
   if (output.empty() || output == "-") return;
   check_paths({output}, inputs);
   if (fs::path(output).extension() != ".toml")
     throw InputError(ErrorKind::usage, {output}, "a machine file has a name that ends in .toml");
-  std::error_code error;
-  if (overwrite || !fs::is_regular_file(output, error) || fs::file_size(output, error) == 0) return;
-  throw InputError(ErrorKind::usage, {output},
-                   "the file exists; give another name, or --force-overwrite to replace it");
+  refuse_existing(output, overwrite);
+}
+
+void check_coupon_outputs(const Options& options) {
+  const std::string &program = *options.output, &sheet = *options.testcut.sheet;
+  for (const std::string& path : {program, sheet})
+    if (path == "-")
+      throw InputError(ErrorKind::usage, {}, "testcut writes two files; -o and --sheet cannot be '-'");
+  check_paths({program, sheet}, inputs_of(options));
+  if (fs::path(sheet).extension() != ".csv")
+    throw InputError(ErrorKind::usage, {sheet}, "a sheet has a name that ends in .csv");
+  refuse_existing(sheet, options.force_overwrite);
+  if (!options.force_overwrite) refuse_foreign({{program, has_corrected_header}});
 }
 
 namespace {

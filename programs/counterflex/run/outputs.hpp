@@ -93,6 +93,10 @@ void check_machine_output(const std::string& output, const std::vector<std::stri
 /// Checks --output and --plot of `map`. Throws as `output_paths` and `refuse_foreign`.
 void check_map_outputs(const Options& options);
 
+/// Checks --output and --sheet of `testcut`. People fill in sheets: an existing one is replaced only with
+/// --force-overwrite. Throws as `output_paths` and `refuse_foreign`.
+void check_coupon_outputs(const Options& options);
+
 /// Checks --draw of `check`. Throws as `output_paths` and `refuse_foreign`.
 void check_drawing_output(const Options& options);
 

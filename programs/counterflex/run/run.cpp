@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
 #include <set>
 #include <string>
 
@@ -187,15 +188,16 @@ void refuse_stdin_twice(const Options& options) {
   if (count > 1) throw InputError(ErrorKind::usage, {}, "standard input (-) can be only one of the inputs");
 }
 
-std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
+namespace {
+
+std::unique_ptr<Run> prepared_run(const Options& options, Console& console,
+                                  const std::function<ProgramFile()>& open) {
   refuse_stdin_twice(options);
   console.progress("reading");
   MachineInput machine = read_machine_input(options);
   ToolLengths tools = read_tool_lengths(options, &machine.machine);
   take_lengths(tools, machine.machine);
-  auto run = std::make_unique<Run>(
-      Run{.machine = std::move(machine),
-          .file = open_program("program", options.program, options.data_lists, console)});
+  auto run = std::make_unique<Run>(Run{.machine = std::move(machine), .file = open()});
   run->tools = std::move(tools);
   const Machine& on = run->machine.machine;
   run->read = read_options(options, &on, run->tools);
@@ -234,6 +236,19 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
     run->facts.warnings.push_back(std::move(*cycles));
   warn_of_run(*run, options.command, console);
   return run;
+}
+
+}  // namespace
+
+std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
+  return prepared_run(options, console,
+                      [&] { return open_program("program", options.program, options.data_lists, console); });
+}
+
+std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console) {
+  return prepared_run(options, console, [&] {
+    return ProgramFile{{"program", options.program, {}}, FileReader::of_bytes(text)};
+  });
 }
 
 void refuse_what_cannot_be_compensated(const Run& run) {

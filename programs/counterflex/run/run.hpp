@@ -45,6 +45,9 @@ void refuse_stdin_twice(const Options& options);
 /// file is written.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 
+/// The same for a program that is not a file: `options.program` is its name.
+std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console);
+
 /// Throws for a machine that controls nothing (ErrorKind::machine_or_force) and for a program with the header
 /// of a corrected one (ErrorKind::program_text).
 void refuse_what_cannot_be_compensated(const Run& run);

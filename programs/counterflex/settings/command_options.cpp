@@ -354,6 +354,38 @@ void add_identify(CLI::App& app, Options& options) {
   add_output(command, options);
 }
 
+void add_testcut(CLI::App& app, Options& options) {
+  CLI::App& command = add_command(
+      app, options, "testcut", Command::testcut,
+      "Write a program of a test piece, half of it corrected, and a sheet for what is measured on it",
+      "  counterflex testcut -m mill.toml --box 0,0,-5,240,150,0 --tool T1 --diameter-mm 10 \\\n"
+      "      -f cutting.toml -o coupon.ngc --sheet coupon.csv\n"
+      "  counterflex identify -m mill.toml --data coupon.csv -o measured.toml");
+  add_setting(command, options, "machine");
+  TestcutOptions& testcut = options.testcut;
+  const auto text = [&](const std::string& name, const std::string& type, const std::string& help,
+                        std::optional<std::string>& value) {
+    return value_option(command, name, type, help, [&value](const std::string& given) { value = given; });
+  };
+  text("--box", "X0,Y0,Z0,X1,Y1,Z1",
+       "Corners of the cut box in mm, program coordinates of G54: Z1 is the top of the stock", testcut.box)
+      ->required();
+  text("--tool", "T3", "The number of the end mill", testcut.tool)->required();
+  text("--diameter-mm", "LENGTH", "Its diameter (default: of [tools] in the machine file)", testcut.diameter);
+  text("--feed-mm-min", "FEED", "Feed (default: 0.05 mm for a tool of 10 mm and each of two teeth)",
+       testcut.feed);
+  text("--speed-rpm", "SPEED", "Speed of the spindle (default: 60 m/min)", testcut.speed);
+  value_option(command, "-o,--output", "OUTPUT", "The program (LinuxCNC)", [&](const std::string& output) {
+    options.output = output;
+  })->required();
+  text("--sheet", "FILE", "The sheet for measured values (.csv)", testcut.sheet)->required();
+  add_forces(command, options);
+  add_settings(command, options,
+               {"blend-mm", "work", "tolerance-mm", "max-correction-mm", "threads", "force-overwrite"});
+  add_config(command, options);
+  command.add_flag("-q,--quiet", options.quiet, "Print only errors")->group(std::string(group::output));
+}
+
 void add_import(CLI::App& app, Options& options) {
   CLI::App& command = add_command(
       app, options, "import", Command::import, "Write a machine file from another description of the machine",
@@ -436,6 +468,7 @@ void add_commands(CLI::App& app, Options& options) {
   add_check(app, options);
   add_new(app, options);
   add_identify(app, options);
+  add_testcut(app, options);
   add_import(app, options);
   add_batch(app, options);
   add_watch(app, options);

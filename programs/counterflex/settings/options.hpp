@@ -23,6 +23,7 @@ enum class Command {
   create,
   import,
   identify,
+  testcut,
   map,
   batch,
   watch
@@ -95,6 +96,12 @@ struct IdentifyOptionTexts {
   std::optional<std::string> fit;       ///< "zeros,geometry"
   std::optional<std::string> hold_out;  ///< "session", "region" or "20%"
   bool all = false;                     ///< keep sets that do not improve held-out rows
+};
+
+/// Of `testcut`. Texts of the command line.
+struct TestcutOptions {
+  std::optional<std::string> box, tool, sheet;
+  std::optional<std::string> diameter, feed, speed;  ///< mm, mm/min, 1/min
 };
 
 struct ImportOptions {
@@ -171,6 +178,7 @@ struct Options {
   AnalyzeOptions analyze;
   MapOptions map;
   IdentifyOptionTexts identify;
+  TestcutOptions testcut;
   ImportOptions import;
   BatchOptions batch;
   WatchOptions watch;

@@ -256,6 +256,9 @@ bool has_setting(Command command, std::string_view option) {
       return is_among(option, {"threads", "force-overwrite"});
     case Command::identify:
       return is_among(option, {"machine", "threads", "force-overwrite"});
+    case Command::testcut:
+      return is_among(option, {"machine", "forces", "force", "load-scale", "air-above", "blend-mm", "work",
+                               "tolerance-mm", "max-correction-mm", "threads", "force-overwrite"});
     case Command::map:
       return is_of_reading(option) || is_among(option, {"threads", "force-overwrite"});
     case Command::compare:

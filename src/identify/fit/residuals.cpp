@@ -61,6 +61,25 @@ RowResidual bar(const Measurement& row, const Response* at) {
                 direction.transpose() * (at[0].tangents.topRows<3>() - at[1].tangents.topRows<3>()));
 }
 
+/// A sum of weighted deviations in the frame of the part, and what the tool's radius adds.
+RowResidual feature(const Measurement& row, const SessionFrames& frames, const Response* at) {
+  double predicted = row.radius_share * frames.offset;
+  Eigen::RowVectorXd J_p = Eigen::RowVectorXd::Zero(at[0].tangents.cols());
+  Eigen::RowVectorXd J_s = Eigen::RowVectorXd::Zero(session_unknowns);
+  for (std::size_t k = 0; k < row.places.size(); ++k) {
+    const auto& [p_MT, weight] = row.places[k];
+    const Vector3 p_S = frames.X_SM * at[k].X_MT.p;
+    predicted += weight.dot(p_S - p_MT);
+    J_p += weight.transpose() * frames.X_SM.R * at[k].tangents.topRows<3>();
+    J_s.head<3>() += weight.transpose();
+    J_s.segment<3>(3) -= weight.transpose() * skew(p_S - frames.X_SM.p);
+  }
+  J_s[12] = row.radius_share;
+  RowResidual out = scalar(row, predicted, J_p);
+  out.J_s = J_s / row.sigma;
+  return out;
+}
+
 /// The angle between two directions of motion, less a right angle.
 RowResidual squareness(const Measurement& row, const Response* at) {
   const Vector3 a = at[1].X_MT.p - at[0].X_MT.p, b = at[3].X_MT.p - at[2].X_MT.p;
@@ -116,6 +135,8 @@ std::vector<int> unknowns_of(MeasurementKind kind) {
     case MeasurementKind::axis_table:
     case MeasurementKind::clamped_torque:
       return {12};
+    case MeasurementKind::cmm_feature:  // the frame of the part, and the radius of the tool
+      return {0, 1, 2, 3, 4, 5, 12};
     default:
       return {};
   }
@@ -145,6 +166,8 @@ RowResidual residual(const Measurement& row, MeasurementKind kind, const Session
       return bar(row, at);
     case MeasurementKind::squareness:
       return squareness(row, at);
+    case MeasurementKind::cmm_feature:
+      return feature(row, frames, at);
     case MeasurementKind::static_push:
     case MeasurementKind::hung_weight:
       return scalar(row, row.direction.dot(at[0].X_MT.p - at[1].X_MT.p),

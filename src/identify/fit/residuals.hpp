@@ -7,7 +7,8 @@
 namespace counterflex {
 
 /// What a session does not know: the machine frame in its own frame S, the probe B in the tip's, and an
-/// offset. Of a plane, S is the plane's frame, z its normal.
+/// offset. Of a plane, S is the plane's frame, z its normal. Of a coupon, S is the frame in which it was
+/// measured, moved to where M would be, and the offset is that of the tool's radius.
 struct SessionFrames {
   Pose X_SM;
   Pose X_TB;

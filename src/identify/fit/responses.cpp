@@ -57,7 +57,23 @@ class Signs {
 
 }  // namespace
 
-States nominal_states(const Model& model, const Measurements& measurements, int threads) {
+std::map<long, MachineWithTool> machines_of(const Machine& machine, const States& states) {
+  std::map<long, MachineWithTool> machines;
+  const Model base = prepare(machine);
+  for (const CommandedState* state : states.state) {
+    if (machines.contains(state->tool)) continue;
+    if (state->tool == 0) {
+      machines.emplace(0, MachineWithTool{machine, base});
+      continue;
+    }
+    const Tool& tool = machine.tools.at(state->tool);
+    machines.emplace(state->tool,
+                     MachineWithTool{with_tool(machine, tool), prepare_with_tool(machine, base, tool)});
+  }
+  return machines;
+}
+
+States nominal_states(const Machine& machine, const Measurements& measurements, int threads) {
   States states;
   std::vector<const Measurement*> row_of;
   for (const Measurement& row : measurements.rows) {
@@ -67,36 +83,47 @@ States nominal_states(const Model& model, const Measurements& measurements, int 
       row_of.push_back(&row);
     }
   }
+  const std::map<long, MachineWithTool> machines = machines_of(machine, states);
   states.nominal.resize(states.state.size());
+  states.X_MT.resize(states.state.size());
   std::vector<Status> found(states.state.size());
   for_each_index((states.state.size() + slice - 1) / slice, threads, [&](std::size_t s) {
     for (std::size_t i = s * slice; i < std::min((s + 1) * slice, states.state.size()); ++i) {
+      const Model& model = machines.at(states.state[i]->tool).model;
       const NominalResult nominal =
           nominal_forward(model, model.home, joint_values(model.mechanism.shown, states.state[i]->shown));
       found[i] = nominal.status;
       states.nominal[i] = nominal.configuration;
+      states.X_MT[i] = tip(model.mechanism, nominal.configuration);
     }
   });
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i] != Status::converged)
-      throw InputError(ErrorKind::machine_or_force, row_of[i]->at,
-                       fmt::format("the machine cannot be at the actuator values {} (mm, deg)",
-                                   shown_words(model, states.state[i]->shown)));
+      throw InputError(
+          ErrorKind::machine_or_force, row_of[i]->at,
+          fmt::format("the machine cannot be at the actuator values {} (mm, deg)",
+                      shown_words(machines.at(states.state[i]->tool).model, states.state[i]->shown)));
   return states;
 }
 
 std::vector<Response> responses(const Machine& machine, const std::vector<std::size_t>& varied,
                                 const States& states, int threads, std::vector<Configuration>& loaded) {
-  const Model model = prepare(machine);
-  const ParameterTangents tangents(machine, model, varied);
+  const std::map<long, MachineWithTool> machines = machines_of(machine, states);
+  std::map<long, ParameterTangents> all_tangents;  // parameters of a tool are behind those of the machine
+  for (const auto& [tool, with] : machines)
+    all_tangents.emplace(tool, ParameterTangents(with.machine, with.model, varied));
   const Signs signs(machine, varied);
   std::vector<Response> found(states.state.size());
   const bool has_starts = !loaded.empty();
   loaded.resize(states.state.size());
   for_each_index((found.size() + slice - 1) / slice, threads, [&](std::size_t s) {
-    StaticsWork work(model.mechanism), tangent_work = tangents.work();
+    std::map<long, std::pair<StaticsWork, StaticsWork>> works;  // of equilibria and of tangents
     for (std::size_t i = s * slice; i < std::min((s + 1) * slice, found.size()); ++i) {
       const CommandedState& state = *states.state[i];
+      const Model& model = machines.at(state.tool).model;
+      const ParameterTangents& tangents = all_tangents.at(state.tool);
+      auto& [work, tangent_work] =
+          works.try_emplace(state.tool, StaticsWork(model.mechanism), tangents.work()).first->second;
       const Load load{state.F, false};
       // Joints lag behind the commanded values.
       Eigen::VectorXd joints = actuator_values(model.mechanism, states.nominal[i]);

@@ -1,5 +1,6 @@
 #pragma once
 /// The machine at the commanded states of all measurements.
+#include <map>
 #include <vector>
 
 #include "counterflex/identify/measurements.hpp"
@@ -13,11 +14,19 @@ struct States {
   std::vector<std::size_t> first;  ///< by row: its first state
   std::vector<const CommandedState*> state;
   std::vector<Configuration> nominal;
+  std::vector<Pose> X_MT;  ///< nominal tips
 };
+
+/// The machine with each of the tools that states have in the spindle, 0 for that of [tool].
+struct MachineWithTool {
+  Machine machine;
+  Model model;
+};
+std::map<long, MachineWithTool> machines_of(const Machine& machine, const States& states);
 
 /// Throws `InputError` at the first row whose state the nominal machine cannot reach. Keeps pointers into
 /// `measurements`.
-States nominal_states(const Model& model, const Measurements& measurements, int threads);
+States nominal_states(const Machine& machine, const Measurements& measurements, int threads);
 
 /// The tip at one state, and its tangents by the varied parameters.
 struct Response {

@@ -10,10 +10,10 @@
 namespace counterflex {
 namespace {
 
-constexpr std::array<std::string_view, 13> all_names = {
+constexpr std::array<std::string_view, 14> all_names = {
     "tracker_point", "tracker_pose",   "static_push",   "hung_weight", "plane_contact",
     "length_bar",    "squareness",     "axis_position", "axis_table",  "reversal",
-    "scale",         "clamped_torque", "ballbar"};
+    "scale",         "clamped_torque", "ballbar",       "cmm_feature"};
 
 // A laser tracker, a dial gauge, a touch or a bar, a ball bar.
 constexpr double sigma_tracker = 0.05 * mm, sigma_gauge = 5 * um, sigma_touch = 0.02 * mm, sigma_slope = 5e-6,
@@ -34,7 +34,8 @@ std::optional<MeasurementKind> kind_named(std::string_view name) {
 }
 
 std::string kind_names() {
-  return fmt::format("{}", fmt::join(all_names, ", "));
+  static_assert(all_names.back() == "cmm_feature");
+  return fmt::format("{}", fmt::join(all_names.begin(), all_names.end() - 1, ", "));
 }
 
 std::vector<std::string_view> needed_columns(MeasurementKind kind) {
@@ -49,6 +50,7 @@ std::vector<std::string_view> needed_columns(MeasurementKind kind) {
     case MeasurementKind::hung_weight:
       return {"reading", "mass"};
     case MeasurementKind::plane_contact:
+    case MeasurementKind::cmm_feature:
       return {};
     case MeasurementKind::length_bar:
       return {"bar", "length"};

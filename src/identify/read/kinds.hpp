@@ -11,7 +11,7 @@ namespace counterflex::measurement_file {
 
 std::optional<MeasurementKind> kind_named(std::string_view name);
 
-/// "tracker_point, tracker_pose, ...".
+/// Kinds that rows of a table can have: "tracker_point, tracker_pose, ...".
 std::string kind_names();
 
 /// The columns that rows of a kind need besides those of the actuators.

@@ -7,7 +7,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
-#include "counterflex/identify/measurements.hpp"
+#include "counterflex/identify/coupon.hpp"
 #include "counterflex/machine/shown.hpp"
 #include "identify/read/axis_motion.hpp"
 #include "identify/read/description.hpp"
@@ -149,6 +149,10 @@ class RowReader {
 
   void read_row() {
     const MeasurementKind kind = kind_of_row();
+    if (kind == MeasurementKind::cmm_feature)
+      table_->fail(
+          "kind",
+          "rows of kind cmm_feature are those of a sheet that testcut wrote; pass the sheet as it is");
     for (const std::string_view name : needed_columns(kind))
       if (!table_->has(name) && !(name == "direction" && !description_.direction.empty()))
         table_->fail("", fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
@@ -370,6 +374,7 @@ class RowReader {
 
 void read_measurements(std::string_view csv, const std::string& file, const Machine& machine,
                        Measurements& all) {
+  if (is_coupon_sheet(csv)) return read_coupon_sheet(csv, file, machine, all);
   RowReader(file, machine, Description{}, all).read(csv);
 }
 

@@ -46,6 +46,7 @@ inline ErrorUnit unit_of(MeasurementKind kind, bool is_length) {
     case MeasurementKind::axis_table:
     case MeasurementKind::reversal:
     case MeasurementKind::clamped_torque:
+    case MeasurementKind::cmm_feature:
       return is_length ? ErrorUnit{"um", um} : ErrorUnit{"mdeg", 1e-3 * deg};
     default:
       return {"mm", mm};

@@ -1,0 +1,230 @@
+/// The test piece: its program, and the rows of its sheet.
+#include "counterflex/identify/coupon.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cstdlib>
+#include <map>
+
+#include "counterflex/machine/create.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "identify/campaigns.hpp"
+
+using namespace counterflex;
+using namespace counterflex::campaigns;
+
+namespace {
+
+CouponRequest request_for_mill() {
+  CouponRequest request;
+  request.least_mm = Vector3(-120, -80, -5);
+  request.most_mm = Vector3(120, 80, 0);
+  return request;
+}
+
+const Pose X_MW{from_rpy(Vector3(0, 0, 0.3)), Vector3(0.3, 0.2, -0.4)};
+
+/// The number behind a letter in a line, or `otherwise`.
+double word(const std::string& line, char letter, double otherwise) {
+  const std::size_t at = line.find(letter);
+  return at == std::string::npos ? otherwise : std::atof(line.c_str() + at + 1);
+}
+
+/// Places of all cuts as the text of the program has them, without forces; the commands of `machine` there.
+std::vector<CouponPlace> places_of(const Coupon& coupon, const Machine& machine) {
+  std::map<int, bool> is_circle;
+  for (const CouponQuantity& quantity : coupon.quantities)
+    for (const CouponCut& cut : quantity.cuts) is_circle[cut.line] = quantity.fit != CouponFit::mean;
+  const Pose home = tip(prepare(machine).mechanism, prepare(machine).home);
+  const auto place = [&](int line, const Vector3& p_mm) {
+    const Vector3 p = X_MW * Vector3(p_mm * mm);
+    return CouponPlace{line, p, 1, {shown_homes(machine) + (p - home.p)}};
+  };
+  std::vector<CouponPlace> places;
+  Vector3 at = Vector3::Zero();
+  int line = 0;
+  for (std::string_view text = coupon.text; !text.empty();) {
+    const std::size_t end = text.find('\n');
+    const std::string block(text.substr(0, end));
+    text.remove_prefix(end + 1);
+    ++line;
+    if (block[0] != 'G') continue;
+    const Vector3 to(word(block, 'X', at.x()), word(block, 'Y', at.y()), word(block, 'Z', at.z()));
+    if (const auto cut = is_circle.find(line); cut != is_circle.end())
+      for (int k = 0; k < 8; ++k) {
+        const double radius = -word(block, 'I', 0), angle = 2 * pi * k / 8;
+        const Vector3 along =
+            cut->second
+                ? Vector3(to - Vector3(radius, 0, 0) + radius * Vector3(std::cos(angle), std::sin(angle), 0))
+                : Vector3(at + (to - at) * k / 7.0);
+        places.push_back(place(line, along));
+      }
+    at = to;
+  }
+  return places;
+}
+
+/// What a row shows if every place deviates by d(p), p in program coordinates (m).
+template <typename Deviation>
+double shown(const Measurement& row, const Deviation& d) {
+  double value = 0;
+  for (const FeaturePlace& place : row.places)
+    value += place.weight.dot(X_MW.R * d(inverse(X_MW) * place.p_MT));
+  return value;
+}
+
+Machine mill_for_coupon() {
+  return read_machine(machine_file(MachineFacts{}), "mill.toml");
+}
+
+struct CutPiece {
+  Machine machine = mill_for_coupon();
+  Coupon coupon = make_coupon(request_for_mill());
+  Measurements rows = coupon_rows(coupon, places_of(coupon, machine), X_MW);
+};
+
+/// The sheet with a measured value in a row.
+std::string filled(std::string sheet, const std::string& row, const std::string& value) {
+  const std::size_t at = sheet.find("\n" + row + ",");
+  REQUIRE(at != std::string::npos);
+  const std::size_t end = sheet.find('\n', at + 1);
+  return sheet.insert(sheet.rfind(",,", end) + 1, value);
+}
+
+std::string error_of(const std::string& sheet, const Machine& machine) {
+  try {
+    Measurements all;
+    read_measurements(sheet, "s.csv", machine, all);
+  } catch (const InputError& error) {
+    return error.what();
+  }
+  return "";
+}
+
+}  // namespace
+
+TEST_CASE("a shift of the tip moves the features of a coupon, and changes no size") {
+  const CutPiece piece;
+  const Vector3 shift(3e-6, -5e-6, 7e-6);
+  for (std::size_t k = 0; k < piece.coupon.quantities.size(); ++k) {
+    const CouponQuantity& quantity = piece.coupon.quantities[k];
+    CAPTURE(quantity.feature);
+    CAPTURE(quantity.name);
+    double expected = 0;
+    if (quantity.name.starts_with("x_")) expected = shift.x();
+    if (quantity.name.starts_with("y_")) expected = shift.y();
+    if (quantity.name == "z_mm") expected = shift.z();
+    if (quantity.name == "position_45deg_mm") expected = (shift.x() + shift.y()) / std::sqrt(2.0);
+    if (quantity.name == "position_135deg_mm") expected = (-shift.x() + shift.y()) / std::sqrt(2.0);
+    CHECK(std::abs(shown(piece.rows.rows[k], [&](const Vector3&) { return shift; }) - expected) < 1e-12);
+  }
+}
+
+TEST_CASE("a tip whose path is larger by a share makes places and paths larger by that share") {
+  const CutPiece piece;
+  const double share = 1e-4, R_mm = 5;
+  for (std::size_t k = 0; k < piece.coupon.quantities.size(); ++k) {
+    const CouponQuantity& quantity = piece.coupon.quantities[k];
+    CAPTURE(quantity.feature);
+    CAPTURE(quantity.name);
+    // The path is a radius outside of a wall, inside of a circle.
+    const double length_mm = quantity.nominal_mm - quantity.radius_share * R_mm;
+    CHECK(shown(piece.rows.rows[k], [&](const Vector3& p) { return Vector3(share * p); }) ==
+          doctest::Approx(share * length_mm * mm).epsilon(1e-4));
+    CHECK(quantity.radius_share == (quantity.name.starts_with("width") ? -2
+                                    : quantity.name == "diameter_mm"   ? 2
+                                                                       : 0));
+  }
+}
+
+TEST_CASE("both halves of a coupon have the same features, and the program has all of them") {
+  const Coupon coupon = make_coupon(request_for_mill());
+  const std::size_t half = coupon.quantities.size() / 2;
+  REQUIRE(coupon.quantities.size() == 2 * half);
+  CHECK(half == 22);
+  for (std::size_t k = 0; k < half; ++k) {
+    CHECK(coupon.quantities[k].name == coupon.quantities[half + k].name);
+    CHECK_FALSE(coupon.quantities[k].is_corrected);
+    CHECK(coupon.quantities[half + k].is_corrected);
+    CHECK(coupon.quantities[k].cuts[0].line < coupon.first_corrected_line);
+    CHECK(coupon.quantities[half + k].cuts[0].line > coupon.first_corrected_line);
+  }
+}
+
+TEST_CASE("a box that is too small for the tool is refused with the size that it needs") {
+  CouponRequest request = request_for_mill();
+  request.diameter_mm = 12;
+  CHECK_THROWS_WITH_AS(make_coupon(request),
+                       "error: --box is 240 x 160 x 5 mm; a coupon for a tool of 12 mm needs at least 278.4 "
+                       "x 168 x 1.2 mm: take "
+                       "a larger box or a smaller tool",
+                       InputError);
+}
+
+TEST_CASE("a box that is too deep for the tool is refused") {
+  CouponRequest request = request_for_mill();
+  request.least_mm.z() = -21;
+  CHECK_THROWS_WITH_AS(
+      make_coupon(request),
+      "error: --box is 21 mm deep; a tool of 10 mm cuts a coupon of at most 20 mm: raise Z0 or "
+      "take a larger tool",
+      InputError);
+}
+
+TEST_CASE("a sheet that was written is read with the rows that have a value") {
+  const CutPiece piece;
+  const std::vector<CouponPrediction> predictions =
+      predict_coupon(piece.machine, piece.coupon, piece.rows, 1);
+  const std::string sheet = coupon_sheet(piece.machine, piece.coupon, piece.rows, predictions, 3e-6);
+  CHECK(is_coupon_sheet(sheet));
+  const CouponQuantity& first = piece.coupon.quantities[0];
+  std::string with_values =
+      filled(sheet, "hole 1,not corrected,x_centre_mm", std::to_string(first.nominal_mm + 0.012));
+  with_values = filled(with_values, "tool,,diameter_mm", "9.99");
+  const auto check = [&](const std::string& text) {
+    Measurements read;
+    read_measurements(text, "sheet.csv", piece.machine, read);
+    REQUIRE(read.rows.size() == 2);
+    CHECK(read.empty_rows == piece.rows.rows.size() - 2);
+    CHECK(read.rows[0].value == doctest::Approx(12e-6).epsilon(1e-2));
+    CHECK(read.rows[1].value == doctest::Approx(-10e-6).epsilon(1e-6));
+    CHECK(read.rows[1].radius_share == 2);
+    REQUIRE(read.rows[0].places.size() == piece.rows.rows[0].places.size());
+    for (std::size_t i = 0; i < read.rows[0].places.size(); ++i) {
+      CHECK((read.rows[0].states[i].shown - piece.rows.rows[0].states[i].shown).norm() < 1e-8);
+      CHECK((read.rows[0].places[i].p_MT - piece.rows.rows[0].places[i].p_MT).norm() < 1e-8);
+      CHECK((read.rows[0].places[i].weight - piece.rows.rows[0].places[i].weight).norm() < 1e-8);
+    }
+  };
+  check(with_values);
+  // As a spreadsheet with semicolons and decimal commas saves it.
+  std::string other = with_values;
+  for (char& c : other) c = c == ',' ? ';' : c == '.' ? ',' : c;
+  check(other);
+}
+
+TEST_CASE("a sheet with wrong values is refused at the row") {
+  const CutPiece piece;
+  const std::string sheet = coupon_sheet(piece.machine, piece.coupon, piece.rows,
+                                         std::vector<CouponPrediction>(piece.rows.rows.size()), 3e-6);
+  CHECK(error_of(sheet, piece.machine) ==
+        "s.csv: error: no row has a measured value; write them into the column measured_mm");
+  const std::string row = "tool,,diameter_mm";
+  CHECK(error_of(filled(sheet, row, "0.3937"), piece.machine) ==
+        "s.csv:50:36: error: measured_mm is 0.3937, -9.61 mm from the nominal value 10; at most 5 mm is "
+        "allowed: "
+        "check the unit, the alignment and the row");
+  CHECK(error_of(filled(sheet, row, "ten"), piece.machine) ==
+        "s.csv:50:36: error: measured_mm is \"ten\"; it must be a number");
+  const std::string tables = filled(sheet, row, "10.003");
+  CHECK(error_of(tables.substr(0, tables.find("\nplace_of")), piece.machine) ==
+        "s.csv:50:1: error: the sheet has no places of \"tool, diameter_mm\"; keep the second table that "
+        "testcut "
+        "wrote");
+  const Machine robot = load_machine(COUNTERFLEX_SOURCE_DIR "/samples/robot-ur10/machine.toml");
+  CHECK(error_of(tables, robot).find("the table has no column \"q1_deg\"") != std::string::npos);
+  CHECK(error_of("kind,X_mm,Y_mm,Z_mm\ncmm_feature,0,0,0\n", piece.machine) ==
+        "s.csv:2:1: error: rows of kind cmm_feature are those of a sheet that testcut wrote; pass the sheet "
+        "as it "
+        "is");
+}
