@@ -5,6 +5,7 @@
 #include <vector>
 
 #include "counterflex/identify/measurements.hpp"
+#include "counterflex/identify/next_measurements.hpp"
 #include "counterflex/machine/parameters.hpp"
 
 namespace counterflex {
@@ -95,7 +96,8 @@ struct Identification {
   std::optional<double> repeatability;    ///< m: rms scatter of repeated states
   double lack_of_fit = 0;                 ///< m: rms of the residuals of positions and readings
   int iterations = 0;
-  Machine machine;  ///< with the identified values
+  Machine machine;                            ///< with the identified values
+  std::optional<ProgramUncertainty> program;  ///< where it was asked for
 };
 
 /// Throws `InputError` (ErrorKind::machine_or_force) where the measurements cannot determine a fit: too few

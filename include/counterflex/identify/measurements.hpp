@@ -30,6 +30,9 @@ enum class MeasurementKind {
 /// How files and people name a kind: "tracker_point".
 std::string_view name_of(MeasurementKind kind);
 
+/// The standard deviation of rows that state none (m; rad or m/m of a value that is not a length).
+double default_sigma(MeasurementKind kind);
+
 /// The flange is clamped, and one actuator turns against its compliance.
 struct ClampedTorque {
   std::size_t actuator = 0;

@@ -15,6 +15,7 @@
 #include "process/version.hpp"
 #include "run/inputs.hpp"
 #include "run/outputs.hpp"
+#include "run/program_places.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -64,6 +65,19 @@ std::string_view without_mark(std::string_view text) {
   return end == std::string_view::npos ? "" : text.substr(end + 1);
 }
 
+constexpr int next_count = 3;
+
+/// Of --for, if it is given.
+std::optional<Failure> places_for(const Options& options, Console& console,
+                                  std::vector<ProgramPlace>& places) {
+  if (options.identify.program.empty()) return std::nullopt;
+  Options run = options;
+  run.command = Command::predict;
+  run.program = options.identify.program;
+  run.report.reset();
+  return find_program_places(run, console, places);
+}
+
 }  // namespace
 
 std::optional<ErrorKind> run_identify(const Options& options, Console& console) {
@@ -77,6 +91,7 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
                     page = options.report ? *options.report + ".html" : "";
   std::vector<std::string> inputs = options.identify.data;
   inputs.push_back(options.machine);
+  if (!options.identify.program.empty()) inputs.push_back(options.identify.program);
   check_machine_output(output, inputs, options.force_overwrite);
   for (const std::string& input : inputs)
     for (const std::string& file : {report, page})
@@ -90,8 +105,16 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   if (measurements.empty_rows > 0)
     console.note(
         fmt::format("{} rows of sheets have no measured value and are skipped\n", measurements.empty_rows));
+  std::vector<ProgramPlace> places;
+  if (const auto failure = places_for(options, console, places)) return failure->kind;
   console.progress("identifying");
-  const Identification found = identify(input.machine, measurements, wanted);
+  Identification found = identify(input.machine, measurements, wanted);
+  if (!places.empty()) {
+    found.program = next_measurements(found.machine, known_parameters(found), places,
+                                      candidate_measurements(found.machine, measurements, places), next_count,
+                                      options.threads);
+    found.program->program = names_of({options.identify.program});
+  }
   std::optional<FileWriter> machine_file, json_file, page_file;
   if (!output.empty()) {
     const std::string text = read_file(options.machine);

@@ -111,7 +111,7 @@ std::vector<CouponPlace> places_of(const Run& run, const Coupon& coupon,
   const long tool = run.tool_models.empty() ? 0 : run.tool_models.begin()->first;
   std::vector<CouponPlace> places;
   const auto add = [&](int line, const Waypoint& w) {
-    places.push_back({line, w.p_MT, 0, {shown_values(shown, w.rho), w.wrench, tool}});
+    places.push_back({line, w.p_MT, 0, {shown_values(shown, w.rho), w.wrench, w.directions, {}, tool}});
   };
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& w = waypoints[i];

@@ -344,12 +344,18 @@ void add_identify(CLI::App& app, Options& options) {
       "Which rows test fits that are made without them (default: sessions if there are several, else 20%)",
       [&](const std::string& text) { options.identify.hold_out = text; });
   command.add_flag("--all", options.identify.all, "Keep what does not improve the rows held out, too");
+  value_option(command, "--for", "PROGRAM",
+               "Name the three next measurements that make the deviations of this program more certain",
+               [&](const std::string& text) { options.identify.program = text; });
   value_option(command, "-o,--output", "OUTPUT", "Write the machine file with the identified values (.toml)",
                [&](const std::string& text) { options.output = text; });
   value_option(command, "--report", "STEM",
                "Write STEM.json, all values with their covariance, and STEM.html, a page",
                [&](const std::string& text) { options.report = text; });
-  add_settings(command, options, {"threads", "force-overwrite"});
+  add_forces(command, options);
+  add_settings(command, options,
+               {"blend-mm", "dialect", "units", "integer-words", "arc-centres", "evaluate",
+                "expand-subprograms", "work", "tool-table", "tool-length", "threads", "force-overwrite"});
   add_config(command, options);
   add_output(command, options);
 }

@@ -255,7 +255,9 @@ bool has_setting(Command command, std::string_view option) {
     case Command::batch:
       return is_among(option, {"threads", "force-overwrite"});
     case Command::identify:
-      return is_among(option, {"machine", "threads", "force-overwrite"});
+      return (is_of_reading(option) && option != "data") ||
+             is_among(option, {"forces", "force", "load-scale", "air-above", "blend-mm", "threads",
+                               "force-overwrite"});
     case Command::testcut:
       return is_among(option, {"machine", "forces", "force", "load-scale", "air-above", "blend-mm", "work",
                                "tolerance-mm", "max-correction-mm", "threads", "force-overwrite"});

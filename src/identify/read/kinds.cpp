@@ -25,6 +25,26 @@ std::string_view name_of(MeasurementKind kind) {
   return all_names[static_cast<std::size_t>(kind)];
 }
 
+double default_sigma(MeasurementKind kind) {
+  switch (kind) {
+    case MeasurementKind::tracker_point:
+    case MeasurementKind::tracker_pose:
+      return sigma_tracker;
+    case MeasurementKind::plane_contact:
+    case MeasurementKind::length_bar:
+      return sigma_touch;
+    case MeasurementKind::squareness:
+    case MeasurementKind::scale:
+      return sigma_slope;
+    case MeasurementKind::clamped_torque:
+      return measurement_file::default_sigma_axis_angle;
+    case MeasurementKind::reversal:
+      return sigma_reversal;
+    default:
+      return sigma_gauge;
+  }
+}
+
 namespace measurement_file {
 
 std::optional<MeasurementKind> kind_named(std::string_view name) {
@@ -80,26 +100,6 @@ bool needs_actuators(MeasurementKind kind) {
       return false;
     default:
       return true;
-  }
-}
-
-double default_sigma(MeasurementKind kind) {
-  switch (kind) {
-    case MeasurementKind::tracker_point:
-    case MeasurementKind::tracker_pose:
-      return sigma_tracker;
-    case MeasurementKind::plane_contact:
-    case MeasurementKind::length_bar:
-      return sigma_touch;
-    case MeasurementKind::squareness:
-    case MeasurementKind::scale:
-      return sigma_slope;
-    case MeasurementKind::clamped_torque:
-      return default_sigma_axis_angle;
-    case MeasurementKind::reversal:
-      return sigma_reversal;
-    default:
-      return sigma_gauge;
   }
 }
 

@@ -20,8 +20,6 @@ std::vector<std::string_view> needed_columns(MeasurementKind kind);
 /// Whether rows of a kind need values of all actuators. Else those of home replace missing ones.
 bool needs_actuators(MeasurementKind kind);
 
-/// m; rad or m/m of a value that is not a length.
-double default_sigma(MeasurementKind kind);
 inline constexpr double default_sigma_angle = 1.7453292519943295e-4;  // rad, 0.01 deg: of an orientation
 inline constexpr double default_sigma_axis_angle = 2e-5;              // rad: of the angle of a rotary axis
 

@@ -35,6 +35,31 @@ std::string parameter_lines(const Identification& found) {
   return text;
 }
 
+std::string program_lines(const ProgramUncertainty& program) {
+  std::string text =
+      fmt::format("\nprogram      {}: the standard deviation of its deviations is {:.3g} um rms\n",
+                  program.program, program.sigma / um);
+  double before = program.sigma;
+  for (const NextMeasurement& next : program.next) {
+    text +=
+        fmt::format("{} {}: {:.3g} -> {:.3g} um\n", before == program.sigma ? "measure next" : "       then ",
+                    next.what, before / um, next.sigma_after / um);
+    before = next.sigma_after;
+  }
+  if (program.next.empty()) text += "             no push and no tracker point would shrink it\n";
+  return text;
+}
+
+Json json_of(const ProgramUncertainty& program) {
+  Json json{{"name", program.program}, {"sigma_um", program.sigma / um}, {"next", Json::array()}};
+  for (const NextMeasurement& next : program.next)
+    json["next"].push_back({{"kind", name_of(next.kind)},
+                            {"what", next.what},
+                            {"sigma_row_um", next.row.sigma / um},
+                            {"sigma_after_um", next.sigma_after / um}});
+  return json;
+}
+
 Json json_of(const ErrorSummary& summary, double unit) {
   return {{"count", summary.count},
           {"mean", summary.mean / unit},
@@ -79,6 +104,7 @@ std::string to_text(const Identification& found) {
                           place(found.outliers[i].at), found.outliers[i].session,
                           found.outliers[i].error / mm, found.outliers[i].ratio);
   }
+  if (found.program) text += program_lines(*found.program);
   return text;
 }
 
@@ -136,6 +162,7 @@ std::string to_json(const Identification& found) {
                                     {"ratio", outlier.ratio}});
   json["worst_rows"] = Json::array();
   for (const Location& at : found.worst) json["worst_rows"].push_back({{"file", at.file}, {"line", at.line}});
+  if (found.program) json["program"] = json_of(*found.program);
   return json.dump(2, ' ', false, Json::error_handler_t::replace) + "\n";
 }
 

@@ -111,6 +111,22 @@ std::string parameter_table(const Identification& found) {
   return text + "</table>\n";
 }
 
+std::string program_table(const Identification& found) {
+  if (!found.program) return "";
+  const ProgramUncertainty& program = *found.program;
+  std::string text = fmt::format(
+      "<h2>Program {}</h2>\n<p>The standard deviation of its deviations is {:.3g} um rms. These "
+      "measurements, "
+      "one after the other, shrink it most:</p>\n<table>\n{}",
+      xml_escaped(program.program), program.sigma / um, row({"measurement", "um before and after"}, "th"));
+  double before = program.sigma;
+  for (const NextMeasurement& next : program.next) {
+    text += row({xml_escaped(next.what), arrow(before / um, next.sigma_after / um)});
+    before = next.sigma_after;
+  }
+  return text + "</table>\n";
+}
+
 std::string file_line(const Location& at) {
   return xml_escaped(fmt::format("{}:{}", at.file.substr(at.file.find_last_of('/') + 1), at.line));
 }
@@ -144,9 +160,9 @@ std::string identification_page(const Identification& found, std::string_view ma
   const std::string title =
       machine.empty() ? "Identification" : fmt::format("Identification of {}", xml_escaped(machine));
   return fmt::format(
-      "{}<title>{}</title></head><body>\n<h1>{}</h1>\n<p>Measurements: {}</p>\n{}{}{}{}</body></html>\n",
+      "{}<title>{}</title></head><body>\n<h1>{}</h1>\n<p>Measurements: {}</p>\n{}{}{}{}{}</body></html>\n",
       head, title, title, xml_escaped(files), lead(found), held_out_table(found), parameter_table(found),
-      row_tables(found));
+      program_table(found), row_tables(found));
 }
 
 }  // namespace counterflex

@@ -1,0 +1,16 @@
+#pragma once
+/// Where a program takes the machine.
+#include <optional>
+#include <vector>
+
+#include "counterflex/identify/next_measurements.hpp"
+#include "run/run.hpp"
+
+namespace counterflex::cli {
+
+/// Places of the feed moves of `options.program`, some hundred at most, with the force of the options there.
+/// A failure if one of them cannot be solved. Throws `InputError`.
+std::optional<Failure> find_program_places(const Options& options, Console& console,
+                                           std::vector<ProgramPlace>& places);
+
+}  // namespace counterflex::cli
