@@ -5,14 +5,19 @@
 #include <Eigen/SVD>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <numeric>
+
+#include "counterflex/files/parallel.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr std::size_t frame_rows = 20;  // of a session that is held out: they give its frames
 constexpr std::size_t parts = 5, regions = 4;
-constexpr std::size_t fewest = 10;  // rows of a group
+constexpr std::size_t fewest = 10;              // rows of a group
+constexpr std::size_t slice = 64;               // rows for one thread at a time
+constexpr double interval = 1.959963984540054;  // deviations to each side: 95 %
 
 /// Whether other sessions show the same parameters. Those of single axes do not.
 bool is_like_others(MeasurementKind kind) {
@@ -65,6 +70,21 @@ std::vector<RowGroup> by_region(const FitProblem& problem) {
   return groups.size() < 2 ? std::vector<RowGroup>{} : groups;
 }
 
+/// Share of the row's numbers whose residual r lies in its 95 % interval.
+double share_in_interval(const LinearRow& row, const Eigen::VectorXd& r, const SessionStep& frames,
+                         const Eigen::MatrixXd& covariance) {
+  const Eigen::MatrixXd J = row.at.J_p + row.at.J_s * frames.by_parameters;
+  int inside = 0;
+  for (Eigen::Index i = 0; i < r.size(); ++i) {
+    const double noise = i < row.at.distances ? row.distance_scale : row.angle_scale;
+    const double variance = J.row(i).dot(covariance * J.row(i).transpose()) +
+                            row.at.J_s.row(i).dot(frames.covariance * row.at.J_s.row(i).transpose()) +
+                            noise * noise;
+    inside += std::abs(r[i]) < interval * std::sqrt(variance);
+  }
+  return static_cast<double>(inside) / static_cast<double>(r.size());
+}
+
 }  // namespace
 
 std::vector<RowGroup> hold_out_groups(const FitProblem& problem, HoldOut kind) {
@@ -74,37 +94,40 @@ std::vector<RowGroup> hold_out_groups(const FitProblem& problem, HoldOut kind) {
   return groups.empty() && kind == HoldOut::automatic ? by_part(problem) : groups;
 }
 
-RowErrors errors_of(const FitProblem& problem, const RowGroup& group, const std::vector<LinearRow>& rows,
+RowErrors errors_of(const FitProblem& problem, const RowGroup& group, const Fit& all,
                     const FitStep& trained) {
-  std::vector<Eigen::Matrix<double, session_unknowns, 1>> frames = trained.sessions;
-  std::vector<bool> is_for_frames(group.rows.size(), false);
+  std::vector<SessionStep> frames = trained.sessions;
+  std::vector<bool> is_for_frames(all.rows.size(), false);
   if (group.has_own_frames) {
     // Evenly spread over the rows. The parameters are held where the training led them.
-    std::vector<LinearRow> own;
-    std::vector<MeasurementKind> kinds;
-    for (const Session& session : problem.measurements.sessions) kinds.push_back(session.kind);
-    for (std::size_t k = 0; k < frame_rows; ++k) {
-      const std::size_t at = k * group.rows.size() / frame_rows;
-      is_for_frames[at] = true;
-      LinearRow row = rows[group.rows[at]];
-      if (row.at.is_found) row.at.r += row.at.J_p * trained.parameters;
-      own.push_back(std::move(row));
-    }
-    const Eigen::VectorXd held = Eigen::VectorXd::Zero(trained.parameters.size());
-    const FitStep step = solve_rows(own, kinds, held, held);
-    frames[rows[group.rows[0]].session] = step.sessions[rows[group.rows[0]].session];
+    for (std::size_t k = 0; k < frame_rows; ++k)
+      is_for_frames[group.rows[k * group.rows.size() / frame_rows]] = true;
+    const std::vector<SessionUnknowns> unknowns = unknowns_of(problem, all.frames);
+    NormalMatrices own = normal_matrices(
+        all.rows, unknowns, trained.parameters.size(), [&](std::size_t i) { return is_for_frames[i]; }, 1);
+    move(trained.parameters, own);
+    const std::size_t session = all.rows[group.rows[0]].session;
+    frames[session] = solve_session(own[session], unknowns[session]);
   }
   RowErrors errors;
-  for (std::size_t k = 0; k < group.rows.size(); ++k) {
-    const LinearRow& row = rows[group.rows[k]];
-    if (is_for_frames[k] || !row.at.is_found || row.weight == 0) continue;
-    const Measurement& measured = problem.measurements.rows[group.rows[k]];
-    const Eigen::VectorXd r = row.at.r + row.at.J_p * trained.parameters + row.at.J_s * frames[row.session];
-    errors.rows.push_back(group.rows[k]);
-    errors.distance.push_back(r.head(row.at.distances).norm() * measured.sigma);
-    if (r.size() > row.at.distances)
-      errors.angle.push_back(r.tail(r.size() - row.at.distances).norm() * measured.sigma_angle);
-  }
+  for (const std::size_t i : group.rows)
+    if (!is_for_frames[i] && all.rows[i].at.is_found && all.rows[i].weight != 0) errors.rows.push_back(i);
+  errors.distance.resize(errors.rows.size());
+  errors.in_interval.resize(errors.rows.size());
+  std::vector<double> angle(errors.rows.size(), -1);
+  for_each_index((errors.rows.size() + slice - 1) / slice, problem.threads, [&](std::size_t s) {
+    for (std::size_t k = s * slice; k < std::min((s + 1) * slice, errors.rows.size()); ++k) {
+      const LinearRow& row = all.rows[errors.rows[k]];
+      const Measurement& measured = problem.measurements.rows[errors.rows[k]];
+      const SessionStep& frame = frames[row.session];
+      const Eigen::VectorXd r = row.at.r + row.at.J_p * trained.parameters + row.at.J_s * frame.step;
+      const Eigen::Index turns = r.size() - row.at.distances;
+      errors.distance[k] = r.head(row.at.distances).norm() * measured.sigma;
+      if (turns > 0) angle[k] = r.tail(turns).norm() * measured.sigma_angle;
+      errors.in_interval[k] = share_in_interval(row, r, frame, trained.covariance);
+    }
+  });
+  std::copy_if(angle.begin(), angle.end(), std::back_inserter(errors.angle), [](double a) { return a >= 0; });
   return errors;
 }
 

@@ -129,10 +129,11 @@ TEST_CASE("the numbers of a ball bar's report are squareness, reversal and scale
   const Machine machine = reversing_mill(0, 0);
   const Measurements rows =
       read(machine,
-           "kind,axes,squareness_um_per_m,reversal_um,scale_um_per_m,radius_mm,sigma_um\n"
-           "ballbar,XY,-18,,,150,0.1\n"
-           "ballbar,X,,9,30,150,0.1\n"
-           "ballbar,Y,,4,,150,0.1\n");
+           "kind,axes,squareness_um_per_m,reversal_um,scale_um_per_m,radius_mm,sigma_um,"
+           "sigma_squareness_um_per_m,sigma_scale_um_per_m\n"
+           "ballbar,XY,-18,,,150,,0.1,\n"
+           "ballbar,X,,9,30,150,0.1,,0.1\n"
+           "ballbar,Y,,4,,150,0.1,,\n");
   REQUIRE(rows.rows.size() == 4);
   CHECK(rows.rows[0].states[1].shown[0] == doctest::Approx(0.15));
   const Identification found = identify(machine, rows, all_sets());

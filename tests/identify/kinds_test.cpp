@@ -45,6 +45,11 @@ Measurements rows_of(MeasurementKind kind, const Machine& truth, Random& random)
       row.states[0].F.head<3>() = Vector3(0, 0, -300);
       row.direction = -Vector3::UnitZ();
       row.value = row.direction.dot(tips(row.states[0]).p - tips(row.states[1]).p);
+    } else if (kind == MeasurementKind::plane_contact) {
+      // z is moved until the tip touches a plane that leans.
+      const Vector3 normal = Vector3(0.02, -0.01, 1).normalized();
+      for (int step = 0; step < 4; ++step)
+        row.states[0].shown[2] -= normal.dot(tips(row.states[0]).p - Vector3(0, 0, -0.1)) / normal.z();
     } else if (kind == MeasurementKind::length_bar) {
       row.states.push_back(random_state(truth, 0.1, 0, random));
       row.value = (tips(row.states[0]).p - tips(row.states[1]).p).norm();
@@ -73,8 +78,8 @@ TEST_CASE("rows of each kind without noise are fitted without misfit") {
   const Machine nominal = read_machine(mill_text(), "mill.toml"), truth = true_mill(nominal);
   IdentifyOptions options;
   options.ladder = false;
-  for (const MeasurementKind kind :
-       {MeasurementKind::hung_weight, MeasurementKind::length_bar, MeasurementKind::axis_position}) {
+  for (const MeasurementKind kind : {MeasurementKind::hung_weight, MeasurementKind::plane_contact,
+                                     MeasurementKind::length_bar, MeasurementKind::axis_position}) {
     CAPTURE(static_cast<int>(kind));
     Random random(9);
     const Identification found = identify(nominal, rows_of(kind, truth, random), options);
@@ -88,13 +93,28 @@ TEST_CASE("a squareness that is measured becomes that of the machine") {
   IdentifyOptions options;
   options.ladder = false;
   Measurements all;
-  read_measurements("kind,axes,squareness_um_per_m,sigma_um\nsquareness,XY,40,0.01\n", "s.csv", nominal, all);
+  read_measurements("kind,axes,squareness_um_per_m,sigma_squareness_um_per_m\nsquareness,XY,40,0.01\n",
+                    "s.csv", nominal, all);
   const Identification found = identify(nominal, all, options);
   Tips tips(found.machine);
   std::vector<Vector3> p;
   for (const CommandedState& state : all.rows[0].states) p.push_back(tips(state).p);
   const Vector3 u = (p[1] - p[0]).normalized(), v = (p[3] - p[2]).normalized();
   CHECK(std::abs(std::asin(-u.dot(v)) - 40e-6) < 1e-8);
+}
+
+TEST_CASE(
+    "a plane that the tip touches does not give the height of the machine, and its lean gives no error") {
+  const Machine nominal = read_machine(mill_text(), "mill.toml");
+  Random random(9);
+  IdentifyOptions options;
+  options.ladder = false;
+  const Identification found =
+      identify(nominal, rows_of(MeasurementKind::plane_contact, nominal, random), options);
+  for (const IdentifiedParameter& parameter : found.parameters) {
+    CAPTURE(parameter.name);
+    CHECK(std::abs(parameter.value - parameter.before) < 1e-3 * parameter.prior);
+  }
 }
 
 TEST_CASE("the written machine file has the identified values, and all its other lines") {

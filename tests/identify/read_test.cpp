@@ -79,6 +79,20 @@ TEST_CASE("a squareness names two linear axes") {
   CHECK(all.rows[0].value / -18e-6 == doctest::Approx(1));
 }
 
+TEST_CASE("the deviation of a squareness is an angle in a column of its own") {
+  const Measurements all = read(
+      "kind,axes,squareness_arcsec,sigma_squareness_um_per_m,sigma_um,X_mm,Y_mm,Z_mm,x_mm,y_mm,z_mm\n"
+      "squareness,XY,2,3,,,,,,,\n"
+      "tracker_point,,,,40,1,2,3,1,2,3\n");
+  REQUIRE(all.rows.size() == 2);
+  CHECK(all.rows[0].value / (2 * deg / 3600) == doctest::Approx(1));
+  CHECK(all.rows[0].sigma / 3e-6 == doctest::Approx(1));
+  CHECK(all.rows[1].sigma / 40e-6 == doctest::Approx(1));
+  CHECK(error_of("kind,axes,squareness_um_per_m,sigma_um\nsquareness,XY,-18,2\n") ==
+        "data.csv:2:19: error: sigma is a length; give the deviation of a squareness in a column "
+        "sigma_squareness_um_per_m, and leave this field empty");
+}
+
 TEST_CASE("bad measurements are refused at their place") {
   CHECK(error_of("") == "data.csv: error: the file has no row with the names of its columns");
   CHECK(error_of("kind,speed\n")

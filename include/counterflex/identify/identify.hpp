@@ -60,6 +60,7 @@ struct HeldOutGroup {
   bool is_length = true;  ///< of `before` and `after`
   ErrorSummary before, after;
   ErrorSummary angle_before, angle_after;  ///< of orientations; count 0: none
+  double in_interval = 0;  ///< share of the measured numbers that lie in their predicted 95 % intervals
 };
 
 /// A set of parameters that was tried.
@@ -84,6 +85,16 @@ struct Correlation {
   double value = 0;
 };
 
+/// Changes of parameters that, made together, change no row by much: the measurements leave more than half of
+/// the prior deviation of this combination.
+struct FreeCombination {
+  struct Term {
+    std::string name;
+    double change = 0;  ///< SI; of the first term one prior deviation
+  };
+  std::vector<Term> terms;  ///< at least two
+};
+
 struct Identification {
   std::vector<IdentifiedParameter> parameters;  ///< those that were varied
   Eigen::MatrixXd covariance;                   ///< SI, in the same order
@@ -93,9 +104,11 @@ struct Identification {
   std::size_t outlier_count = 0;
   std::vector<Location> worst;
   std::vector<Correlation> correlations;  ///< above 0.9
-  std::optional<double> repeatability;    ///< m: rms scatter of repeated states
-  double lack_of_fit = 0;                 ///< m: rms of the residuals of positions and readings
+  std::vector<FreeCombination> free;
+  std::optional<double> repeatability;  ///< m: rms scatter of repeated states
+  double lack_of_fit = 0;               ///< m: rms of the residuals of positions and readings
   int iterations = 0;
+  bool is_converged = false;
   Machine machine;                            ///< with the identified values
   std::optional<ProgramUncertainty> program;  ///< where it was asked for
 };

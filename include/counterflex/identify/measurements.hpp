@@ -75,7 +75,10 @@ struct Session {
   std::string name;
   MeasurementKind kind = MeasurementKind::tracker_point;
   bool sigma_given = false;  ///< else that of its rows is a default
-  Pose X_TB{};               ///< probe B in the tip's frame, where the search for it begins
+  Pose X_TB{};               ///< probe B in the tip's frame, where it is expected
+  /// Rows are in the machine frame, of the probe at X_TB; a plane is z = 0 of that frame. No unknown frames.
+  bool has_known_frame = false;
+  double probe_sigma = 0.3;  ///< standard deviation of its position (m)
 };
 
 struct Measurements {

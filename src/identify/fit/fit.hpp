@@ -1,7 +1,5 @@
 #pragma once
 /// The robust fit of parameters and frames to rows.
-#include <functional>
-
 #include "identify/fit/least_squares.hpp"
 
 namespace counterflex {
@@ -18,34 +16,24 @@ struct FitProblem {
   int threads = 1;
 };
 
-/// The deviations of rows of one session, in units of the stated ones.
-struct SessionScale {
-  double distance = 1, angle = 1;
-};
-
 struct Fit {
   Eigen::VectorXd values;             ///< of the varied parameters
   std::vector<SessionFrames> frames;  ///< by session
-  std::vector<SessionScale> scales;
-  std::vector<LinearRow> rows;  ///< linearised at `values` and `frames`
+  std::vector<LinearRow> rows;        ///< linearised at `values` and `frames`, with weights and scales
   Eigen::MatrixXd covariance;
   int iterations = 0;
+  bool is_converged = false;
 };
 
-/// Gauss-Newton with reweighted rows: Huber's weights, then Tukey's, which leave gross errors out. Steps that
-/// leave a bound end there. `start` has frames; its values begin at the machine's.
+/// Reweighted least squares: Huber's weights, then Tukey's, which leave gross errors out. Steps are those of
+/// Levenberg and Marquardt: one that does not lower the weighted sum of squares is tried again with more
+/// damping. Parameters that would leave a bound end there. `start` has frames; its values begin at the
+/// machine's. Source of the schedule: Madsen, Nielsen, Tingleff, "Methods for non-linear least squares
+/// problems" (2004), section 3.2.
 Fit fit(const FitProblem& problem, std::vector<SessionFrames> start);
 
-/// All rows at the given values.
-std::vector<LinearRow> linearise(const FitProblem& problem, const Eigen::VectorXd& values,
-                                 const std::vector<SessionFrames>& frames,
-                                 std::vector<Configuration>& loaded);
-
-/// The same fit where everything is taken as linear about `rows`: of the rows for which `is_used`, with the
-/// parameters for which prior is positive. `origin` are the values at which `rows` are linearised. Weights
-/// and scales stay.
-FitStep refit(const FitProblem& problem, const std::vector<LinearRow>& rows, const Eigen::VectorXd& origin,
-              const Eigen::VectorXd& prior, const std::function<bool(std::size_t)>& is_used);
+/// What the sessions do not know, from where their frames are.
+std::vector<SessionUnknowns> unknowns_of(const FitProblem& problem, const std::vector<SessionFrames>& frames);
 
 /// The size of a row's residual in its own (robust) deviations, per component.
 double ratio(const LinearRow& row);

@@ -4,12 +4,15 @@
 #include <Eigen/QR>
 #include <Eigen/SVD>
 #include <algorithm>
+#include <numeric>
 
 namespace counterflex {
 namespace {
 
 constexpr int rounds = 30;         // of weights
 constexpr double smallest = 1e-5;  // m: errors below it have the same weight
+/// Of the expected position of a probe against that of all rows: misfits of 1 mm, a lever of 0.3 m.
+constexpr double weight_of_expected = 1e-5;
 
 /// Weights of a fit by sums of distances, not of squares: a gross error counts little.
 std::vector<double> weights_of(const std::vector<Vector3>& errors) {
@@ -69,10 +72,15 @@ void match_rotations(const std::vector<const Measurement*>& rows, const std::vec
 }
 
 /// The probe's position and the base's with known R_SM: p_S = R_SM (p + R t) + b is linear in t and b.
+/// A tip that hardly turns does not determine the probe: it then stays near `expected` in the tip's frame.
 void match_offsets(const std::vector<const Measurement*>& rows, const std::vector<Pose>& X_MT,
-                   const std::vector<double>& weights, SessionFrames& frames) {
+                   const std::vector<double>& weights, const Vector3& expected, SessionFrames& frames) {
   Eigen::Matrix<double, 6, 6> N = Eigen::Matrix<double, 6, 6>::Zero();
   Vector6 rhs = Vector6::Zero();
+  for (int k = 0; k < 3; ++k) {
+    N(k, k) = weight_of_expected * std::accumulate(weights.begin(), weights.end(), 0.0);
+    rhs[k] = N(k, k) * expected[k];
+  }
   for (std::size_t i = 0; i < rows.size(); ++i) {
     Eigen::Matrix<double, 3, 6> J;
     J << frames.X_SM.R * X_MT[i].R, Matrix3::Identity();
@@ -97,7 +105,7 @@ SessionFrames tracker_frames(const Session& session, const std::vector<const Mea
       to.push_back(rows[i]->X.p);
     }
     if (!has_orientation) frames.X_SM = match_points(from, to, weights);
-    match_offsets(rows, X_MT, weights, frames);
+    match_offsets(rows, X_MT, weights, session.X_TB.p, frames);
     for (std::size_t i = 0; i < rows.size(); ++i)
       errors.push_back(frames.X_SM * (X_MT[i] * frames.X_TB.p) - to[i]);
     weights = weights_of(errors);
@@ -121,6 +129,7 @@ SessionFrames plane_frames(const std::vector<Pose>& X_MT) {
 
 SessionFrames first_frames(const Session& session, const std::vector<const Measurement*>& rows,
                            const std::vector<Pose>& X_MT) {
+  if (session.has_known_frame) return {Pose{}, session.X_TB, 0};
   switch (session.kind) {
     case MeasurementKind::tracker_point:
     case MeasurementKind::tracker_pose:

@@ -2,48 +2,16 @@
 
 #include <Eigen/Cholesky>
 #include <Eigen/Eigenvalues>
+#include <algorithm>
 #include <cmath>
+
+#include "counterflex/files/parallel.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr Eigen::Index portion = 256;  // rows that are added at a time
-constexpr double rank = 1e-13;         // of the largest eigenvalue: smaller ones are directions without rows
-
-/// J' J of rows that come one behind the other, the right-hand side as the last column of J.
-class NormalMatrix {
- public:
-  explicit NormalMatrix(Eigen::Index columns)
-      : rows_(portion, columns), sum_(Eigen::MatrixXd::Zero(columns, columns)) {}
-
-  /// A row to be filled.
-  Eigen::Block<Eigen::MatrixXd, 1, Eigen::Dynamic> add() {
-    if (used_ == portion) reduce();
-    return rows_.row(used_++);
-  }
-
-  Eigen::MatrixXd sum() {
-    reduce();
-    return Eigen::MatrixXd(sum_.selfadjointView<Eigen::Lower>());
-  }
-
- private:
-  void reduce() {
-    if (used_ == 0) return;  // of a session that is held out
-    sum_.selfadjointView<Eigen::Lower>().rankUpdate(rows_.topRows(used_).transpose());
-    used_ = 0;
-  }
-
-  Eigen::Index used_ = 0;
-  Eigen::MatrixXd rows_, sum_;
-};
-
-/// The unknowns of one session as a function of the parameters: x = x_0 - X dp.
-struct Eliminated {
-  std::vector<int> unknowns;
-  Eigen::VectorXd x_0;
-  Eigen::MatrixXd X;
-};
+constexpr std::size_t portion = 256;  // rows whose normal matrix one thread makes at a time
+constexpr double rank = 1e-13;        // of the largest eigenvalue: smaller ones are directions without rows
 
 /// N^+ B; N symmetric. A frame's columns have different units: each is scaled to its own length.
 Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& N, const Eigen::MatrixXd& B) {
@@ -56,62 +24,134 @@ Eigen::MatrixXd pseudo_solve(const Eigen::MatrixXd& N, const Eigen::MatrixXd& B)
   return scale.asDiagonal() * (eigen.eigenvectors() * (inverse.asDiagonal() * scaled));
 }
 
-}  // namespace
-
-WeightedRow weighted(const LinearRow& row) {
-  const Eigen::Index n = row.at.r.size();
-  Eigen::VectorXd factor(n);
-  for (Eigen::Index i = 0; i < n; ++i)
-    factor[i] = std::sqrt(row.weight) / (i < row.at.distances ? row.distance_scale : row.angle_scale);
-  return {factor.asDiagonal() * row.at.r, factor.asDiagonal() * row.at.J_p, factor.asDiagonal() * row.at.J_s};
+/// J' J of rows of one session, the right-hand side as the last column of J.
+Eigen::MatrixXd normal_of(const std::vector<LinearRow>& rows, const std::vector<std::size_t>& used,
+                          std::size_t from, std::size_t to, const std::vector<int>& unknowns,
+                          Eigen::Index parameters) {
+  const auto k = static_cast<Eigen::Index>(unknowns.size());
+  Eigen::Index height = 0;
+  for (std::size_t i = from; i < to; ++i) height += rows[used[i]].at.r.size();
+  Eigen::MatrixXd J(height, k + parameters + 1);
+  Eigen::Index line = 0;
+  for (std::size_t at = from; at < to; ++at) {
+    const LinearRow& row = rows[used[at]];
+    for (Eigen::Index i = 0; i < row.at.r.size(); ++i, ++line) {
+      const double factor =
+          std::sqrt(row.weight) / (i < row.at.distances ? row.distance_scale : row.angle_scale);
+      for (Eigen::Index u = 0; u < k; ++u)
+        J(line, u) = factor * row.at.J_s(i, unknowns[static_cast<std::size_t>(u)]);
+      if (parameters > 0) J.row(line).segment(k, parameters) = factor * row.at.J_p.row(i);
+      J(line, k + parameters) = -factor * row.at.r[i];
+    }
+  }
+  Eigen::MatrixXd N = Eigen::MatrixXd::Zero(J.cols(), J.cols());
+  N.selfadjointView<Eigen::Lower>().rankUpdate(J.transpose());
+  return Eigen::MatrixXd(N.selfadjointView<Eigen::Lower>());
 }
 
-FitStep solve_rows(const std::vector<LinearRow>& rows, const std::vector<MeasurementKind>& kinds,
-                   const Eigen::VectorXd& from_prior, const Eigen::VectorXd& prior) {
+/// The normal matrix with what is known of the session's unknowns.
+Eigen::MatrixXd with_prior(Eigen::MatrixXd N, const SessionUnknowns& unknowns) {
+  for (std::size_t u = 0; u < unknowns.unknowns.size(); ++u) {
+    const int of = unknowns.unknowns[u];
+    const auto at = static_cast<Eigen::Index>(u);
+    N(at, at) += unknowns.information[of];
+    N(at, N.cols() - 1) -= unknowns.information[of] * unknowns.from_prior[of];
+  }
+  return N;
+}
+
+/// The unknowns of a session from its normal matrix: for parameters that are held, by parameter, covariance.
+SessionStep eliminate(const Eigen::MatrixXd& N, const SessionUnknowns& unknowns, double damping) {
+  const auto k = static_cast<Eigen::Index>(unknowns.unknowns.size());
+  const Eigen::Index n = N.cols() - k - 1;  // parameters
+  SessionStep result;
+  result.by_parameters.setZero(session_unknowns, n);
+  result.covariance.setZero();
+  if (k == 0) return result;
+  Eigen::MatrixXd N_s = N.topLeftCorner(k, k), right(k, n + 1 + k);
+  for (Eigen::Index u = 0; u < k; ++u)
+    N_s(u, u) += damping * unknowns.information[unknowns.unknowns[static_cast<std::size_t>(u)]];
+  right << N.topRightCorner(k, n + 1), Eigen::MatrixXd::Identity(k, k);
+  const Eigen::MatrixXd X = pseudo_solve(N_s, right);
+  for (Eigen::Index u = 0; u < k; ++u) {
+    const int to = unknowns.unknowns[static_cast<std::size_t>(u)];
+    result.step[to] = X(u, n);
+    result.by_parameters.row(to) = -X.row(u).head(n);
+    for (Eigen::Index v = 0; v < k; ++v)
+      result.covariance(to, unknowns.unknowns[static_cast<std::size_t>(v)]) = X(u, n + 1 + v);
+  }
+  return result;
+}
+
+}  // namespace
+
+NormalMatrices normal_matrices(const std::vector<LinearRow>& rows,
+                               const std::vector<SessionUnknowns>& sessions, Eigen::Index parameters,
+                               const std::function<bool(std::size_t)>& is_used, int threads) {
+  std::vector<std::vector<std::size_t>> used(sessions.size());
+  for (std::size_t i = 0; i < rows.size(); ++i)
+    if (rows[i].weight != 0 && rows[i].at.is_found && is_used(i)) used[rows[i].session].push_back(i);
+  struct Portion {
+    std::size_t session, from, to;
+  };
+  std::vector<Portion> portions;
+  for (std::size_t s = 0; s < sessions.size(); ++s)
+    for (std::size_t from = 0; from < used[s].size(); from += portion)
+      portions.push_back({s, from, std::min(from + portion, used[s].size())});
+  std::vector<Eigen::MatrixXd> sums(portions.size());
+  for_each_index(portions.size(), threads, [&](std::size_t i) {
+    const auto& [session, from, to] = portions[i];
+    sums[i] = normal_of(rows, used[session], from, to, sessions[session].unknowns, parameters);
+  });
+  NormalMatrices normal;
+  for (const SessionUnknowns& session : sessions) {
+    const Eigen::Index size = static_cast<Eigen::Index>(session.unknowns.size()) + parameters + 1;
+    normal.push_back(Eigen::MatrixXd::Zero(size, size));
+  }
+  for (std::size_t i = 0; i < portions.size(); ++i) normal[portions[i].session] += sums[i];
+  return normal;
+}
+
+void move(const Eigen::VectorXd& parameters, NormalMatrices& normal) {
+  const Eigen::Index n = parameters.size();
+  for (Eigen::MatrixXd& N : normal) N.rightCols<1>() -= N.middleCols(N.cols() - 1 - n, n) * parameters;
+}
+
+SessionStep solve_session(const Eigen::MatrixXd& normal, const SessionUnknowns& unknowns) {
+  return eliminate(with_prior(normal, unknowns), unknowns, 0);
+}
+
+FitStep solve(const NormalMatrices& normal, const std::vector<SessionUnknowns>& sessions,
+              const Eigen::VectorXd& from_prior, const Eigen::VectorXd& prior, double damping) {
   const Eigen::Index n = prior.size();
-  std::vector<Eliminated> sessions(kinds.size());
+  FitStep step;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n + 1);  // of the parameters in prior deviations
-  for (std::size_t s = 0; s < kinds.size(); ++s) {
-    std::vector<int>& unknowns = sessions[s].unknowns;
-    unknowns = unknowns_of(kinds[s]);
-    const auto k = static_cast<Eigen::Index>(unknowns.size());
-    NormalMatrix normal(k + n + 1);
-    for (const LinearRow& row : rows) {
-      if (row.session != s || row.weight == 0 || !row.at.is_found) continue;
-      const WeightedRow w = weighted(row);
-      for (Eigen::Index i = 0; i < w.r.size(); ++i) {
-        auto line = normal.add();
-        for (Eigen::Index u = 0; u < k; ++u) line[u] = w.J_s(i, unknowns[static_cast<std::size_t>(u)]);
-        line.segment(k, n) = w.J_p.row(i).cwiseProduct(prior.transpose());
-        line[k + n] = -w.r[i];
-      }
-    }
-    const Eigen::MatrixXd N = normal.sum();
+  for (std::size_t s = 0; s < sessions.size(); ++s) {
+    const auto k = static_cast<Eigen::Index>(sessions[s].unknowns.size());
+    Eigen::MatrixXd N = with_prior(normal[s], sessions[s]);
+    N.middleCols(k, n) *= prior.asDiagonal();
+    N.middleRows(k, n) = prior.asDiagonal() * N.middleRows(k, n);
+    step.sessions.push_back(eliminate(N, sessions[s], damping));
     all += N.block(k, k, n, n + 1);
-    if (k == 0) continue;
-    const Eigen::MatrixXd X = pseudo_solve(N.topLeftCorner(k, k), N.topRightCorner(k, n + 1));
-    all -= N.block(k, 0, n, k) * X;
-    sessions[s].x_0 = X.col(n);
-    sessions[s].X = X.leftCols(n);
+    for (Eigen::Index u = 0; u < k; ++u) {
+      const int of = sessions[s].unknowns[static_cast<std::size_t>(u)];
+      all.leftCols(n) += N.block(k, u, n, 1) * step.sessions[s].by_parameters.row(of);
+      all.col(n) -= N.block(k, u, n, 1) * step.sessions[s].step[of];
+    }
   }
   for (Eigen::Index i = 0; i < n; ++i) {
-    all(i, i) += 1;
+    all(i, i) += 1 + damping;
     if (prior[i] > 0) all(i, n) -= from_prior[i] / prior[i];
   }
   // No eigenvalue is below 1, that of a direction that no row determines.
   const Eigen::LLT<Eigen::MatrixXd> factor(all.leftCols(n));
-  FitStep step;
   const Eigen::VectorXd scaled = factor.solve(all.col(n));
   step.parameters = scaled.cwiseProduct(prior);
   step.covariance = prior.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(n, n)) * prior.asDiagonal();
-  for (const Eliminated& session : sessions) {
-    Eigen::Matrix<double, session_unknowns, 1> ds = Eigen::Matrix<double, session_unknowns, 1>::Zero();
-    if (!session.unknowns.empty()) {
-      const Eigen::VectorXd x = session.x_0 - session.X * scaled;
-      for (std::size_t u = 0; u < session.unknowns.size(); ++u)
-        ds[session.unknowns[u]] = x[static_cast<Eigen::Index>(u)];
-    }
-    step.sessions.push_back(ds);
+  const Eigen::VectorXd to_scaled = prior.unaryExpr([](double p) { return p > 0 ? 1 / p : 0.0; });
+  for (SessionStep& session : step.sessions) {
+    session.step += session.by_parameters * scaled;
+    session.by_parameters = session.by_parameters * to_scaled.asDiagonal();
   }
   return step;
 }

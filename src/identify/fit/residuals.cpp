@@ -142,6 +142,10 @@ std::vector<int> unknowns_of(MeasurementKind kind) {
   }
 }
 
+std::vector<int> unknowns_of(const Session& session) {
+  return session.has_known_frame ? std::vector<int>{} : unknowns_of(session.kind);
+}
+
 SessionFrames moved(const SessionFrames& frames, const Eigen::Matrix<double, session_unknowns, 1>& step) {
   return {moved(frames.X_SM, Vector6(step.head<6>())), moved(frames.X_TB, Vector6(step.segment<6>(6))),
           frames.offset + step[12]};

@@ -21,6 +21,9 @@ inline constexpr int session_unknowns = 13;
 /// Those that rows of a kind determine.
 std::vector<int> unknowns_of(MeasurementKind kind);
 
+/// Those of a session: none, if its frame is known.
+std::vector<int> unknowns_of(const Session& session);
+
 /// Moves frames by a step of all unknowns.
 SessionFrames moved(const SessionFrames& frames, const Eigen::Matrix<double, session_unknowns, 1>& step);
 

@@ -47,8 +47,8 @@ const std::vector<Kind>& kinds() {
       {{"fx", "fy", "fz"}, list(forces)},
       {{"mx", "my", "mz", "torque"}, list(moments)},
       {{"mass"}, list(masses)},
-      {{"squareness"}, list(slopes)},
-      {{"scale"}, list(scales)},
+      {{"squareness", "sigma_squareness"}, list(slopes)},
+      {{"scale", "sigma_scale"}, list(scales)},
       {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point"}, list(none)},
   };
   return all;
@@ -102,8 +102,9 @@ std::string column_names(const Machine& machine) {
          "x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm, mass_kg, gx, gy, "
          "gz, "
          "reading_um, length_mm, squareness_um_per_m, axes, axis, direction, position_mm, deviation_um, "
-         "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, sigma_mm, sigma_angle_deg, session, "
-         "kind (other units: m, um, in, rad, mrad, mdeg, arcsec, kN)";
+         "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, sigma_mm, sigma_angle_deg, "
+         "sigma_squareness_um_per_m, sigma_scale_um_per_m, session, kind (other units: m, um, in, rad, mrad, "
+         "mdeg, arcsec, kN)";
 }
 
 double number_of(const csv::Field& field, std::string_view name, bool decimal_comma, const Location& line) {

@@ -90,14 +90,18 @@ void read_layout(const toml::table& document, const Source& source, Description&
   }
 }
 
-Pose read_probe(const toml::node& node, const Source& source) {
+void read_probe(const toml::node& node, const Source& source, Description& description) {
   const toml::table& table = as_table(node, "probe", source);
-  check_keys(table, {"xyz_mm", "rpy_deg"}, "a probe", source);
-  Pose X;
-  if (const toml::node* xyz = table.get("xyz_mm")) X.p = as_vector3(*xyz, "xyz_mm", {source}) * mm;
+  check_keys(table, {"xyz_mm", "rpy_deg", "sigma_mm"}, "a probe", source);
+  if (const toml::node* xyz = table.get("xyz_mm"))
+    description.X_TB.p = as_vector3(*xyz, "xyz_mm", {source}) * mm;
   if (const toml::node* rpy = table.get("rpy_deg"))
-    X.R = from_rpy(as_vector3(*rpy, "rpy_deg", {source}) * deg);
-  return X;
+    description.X_TB.R = from_rpy(as_vector3(*rpy, "rpy_deg", {source}) * deg);
+  if (const toml::node* sigma = table.get("sigma_mm")) {
+    description.probe_sigma = as_number(*sigma, {"sigma_mm"}, {source}) * mm;
+    if (!(*description.probe_sigma > 0))
+      source.fail(*sigma, fmt::format("sigma_mm is {:g}; it must be above 0", *description.probe_sigma / mm));
+  }
 }
 
 }  // namespace
@@ -109,8 +113,8 @@ Description read_description(std::string_view text, const std::string& file, con
   if (stated == nullptr || !stated->is_string() || stated->as_string()->get() != format)
     source.fail_at_start(fmt::format("a description of measurements begins with format = \"{}\"", format));
   check_keys(document,
-             {"format", "file", "states", "kind", "session", "direction", "orientation", "names_line",
-              "units_line", "first_row", "separator", "columns", "probe"},
+             {"format", "file", "states", "kind", "session", "direction", "frame", "orientation",
+              "names_line", "units_line", "first_row", "separator", "columns", "probe"},
              "a description of measurements", source);
   Description description;
   description.file = file;
@@ -126,12 +130,14 @@ Description read_description(std::string_view text, const std::string& file, con
     description.session = without_controls(as_text(*session, "session", source));
   if (const toml::node* direction = document.get("direction"))
     description.direction = as_text(*direction, "direction", source);
+  if (const toml::node* frame = document.get("frame"))
+    description.has_known_frame = as_choice(*frame, "frame", {"unknown", "machine"}, source) == "machine";
   if (const toml::node* orientation = document.get("orientation"))
     description.rotation_of =
         convention(as_choice(*orientation, "orientation", {"rotvec", "xyz", "zyx"}, source));
   if (const toml::node* columns = document.get("columns"))
     read_columns(as_table(*columns, "columns", source), source, machine, description);
-  if (const toml::node* probe = document.get("probe")) description.X_TB = read_probe(*probe, source);
+  if (const toml::node* probe = document.get("probe")) read_probe(*probe, source, description);
   return description;
 }
 

@@ -28,6 +28,8 @@ struct Description {
   std::vector<std::pair<std::string, Quantity>> names;  ///< of columns in the CSV file
   Columns constants;                                    ///< quantities that are the same in all rows
   Pose X_TB;                                            ///< probe B in the tip's frame
+  bool has_known_frame = false;                         ///< see `Session`
+  std::optional<double> probe_sigma;                    ///< m, of its position
   /// The rotation that three angles (rad) of a measured orientation mean.
   std::function<Matrix3(const Vector3&)> rotation_of = exp_so3;
 };

@@ -22,6 +22,17 @@ using namespace measurement_file;
 constexpr double default_weight_g = 9.80665;  // m/s2, where the machine file has no gravity
 constexpr double default_radius = 50 * mm;    // of a motion that shows squareness or scale
 
+/// Whether the value of a kind is an angle or a ratio whose deviation has a column of its own.
+bool is_slope(MeasurementKind kind) {
+  return kind == MeasurementKind::squareness || kind == MeasurementKind::scale;
+}
+
+std::string_view sigma_column(MeasurementKind kind) {
+  return kind == MeasurementKind::squareness ? "sigma_squareness"
+         : kind == MeasurementKind::scale    ? "sigma_scale"
+                                             : "sigma";
+}
+
 /// Makes measurements of the rows of one table.
 class RowReader {
  public:
@@ -79,9 +90,18 @@ class RowReader {
         part;
     for (std::size_t i = 0; i < all_.sessions.size(); ++i)
       if (all_.sessions[i].name == name && all_.sessions[i].kind == kind) return i;
-    const bool sigma_given = table_->is_filled("sigma") || table_->is_filled("sigma_angle");
+    const bool sigma_given =
+        table_->is_filled(sigma_column(kind)) || (!is_slope(kind) && table_->is_filled("sigma_angle"));
     all_.sessions.push_back({name, kind, sigma_given, description_.X_TB});
+    all_.sessions.back().has_known_frame = description_.has_known_frame;
+    if (description_.probe_sigma) all_.sessions.back().probe_sigma = *description_.probe_sigma;
     return all_.sessions.size() - 1;
+  }
+
+  /// The deviation of the row's value.
+  void set_sigma(MeasurementKind kind, Measurement& row) const {
+    row.sigma = table_->value_or(sigma_column(kind), default_sigma(kind));
+    if (!(row.sigma > 0)) table_->fail(sigma_column(kind), "a standard deviation is not positive");
   }
 
   /// Actuator values of the row; those of home for actuators without a column where the kind allows that.
@@ -158,9 +178,15 @@ class RowReader {
         table_->fail("", fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
     Measurement row;
     row.at = {file_, table_->where().line, 1};
-    row.sigma = table_->value_or("sigma", default_sigma(kind));
+    if (is_slope(kind) && !table_->is_filled(sigma_column(kind)) && table_->is_filled("sigma"))
+      table_->fail(
+          "sigma",
+          fmt::format("sigma is a length; give the deviation of a {} in a column {}_um_per_m, and leave "
+                      "this field empty",
+                      name_of(kind), sigma_column(kind)));
     row.sigma_angle = table_->value_or("sigma_angle", default_sigma_angle);
-    if (!(row.sigma > 0 && row.sigma_angle > 0)) table_->fail("", "a standard deviation is not positive");
+    if (!(row.sigma_angle > 0)) table_->fail("sigma_angle", "a standard deviation is not positive");
+    set_sigma(kind, row);
     switch (kind) {
       case MeasurementKind::squareness:
       case MeasurementKind::ballbar:
@@ -180,6 +206,13 @@ class RowReader {
     row.session = session_of(kind);
     row.states.push_back({shown_values_of(kind)});
     row.states[0].directions = directions_of(row.session, row.states[0].shown);
+    if (kind == MeasurementKind::length_bar && !read_bar(row)) return;
+    read_reading(kind, row);
+    all_.rows.push_back(std::move(row));
+  }
+
+  /// What was measured at the row's first state.
+  void read_reading(MeasurementKind kind, Measurement& row) const {
     switch (kind) {
       case MeasurementKind::tracker_pose:
         row.X.R = description_.rotation_of(vector("rx", "ry", "rz"));
@@ -188,40 +221,43 @@ class RowReader {
         row.X.p = vector("x", "y", "z");
         break;
       case MeasurementKind::static_push:
-      case MeasurementKind::hung_weight: {
-        row.states.push_back(row.states[0]);
-        Vector6& F = row.states[0].F;
-        if (kind == MeasurementKind::static_push)
-          F << vector("fx", "fy", "fz"), vector("mx", "my", "mz");
-        else
-          F.head<3>() = table_->value("mass") * weight();
-        if (F.isZero(0)) table_->fail("", "the force is zero");
-        row.direction = gauge_direction(kind);
-        row.value = table_->value("reading");
-        break;
-      }
+      case MeasurementKind::hung_weight:
+        read_force(kind, row);
+        [[fallthrough]];
       case MeasurementKind::axis_position:
         row.direction = gauge_direction(kind);
         row.value = table_->value("reading");
         break;
-      case MeasurementKind::length_bar: {
-        const csv::Field* bar = table_->text("bar");
-        const std::string name = bar == nullptr ? "" : std::string(bar->text);
-        row.value = table_->value("length");
-        if (const auto open = open_bars_.find(name); open == open_bars_.end()) {
-          open_bars_.emplace(name, row.at);
-          first_ends_.emplace(name, row.states[0]);
-          return;
-        }
-        row.states.push_back(first_ends_.at(name));
-        open_bars_.erase(name);
-        first_ends_.erase(name);
-        break;
-      }
       default:
         break;
     }
-    all_.rows.push_back(std::move(row));
+  }
+
+  /// The second state is that without the force.
+  void read_force(MeasurementKind kind, Measurement& row) const {
+    row.states.push_back(row.states[0]);
+    Vector6& F = row.states[0].F;
+    if (kind == MeasurementKind::static_push)
+      F << vector("fx", "fy", "fz"), vector("mx", "my", "mz");
+    else
+      F.head<3>() = table_->value("mass") * weight();
+    if (F.isZero(0)) table_->fail("", "the force is zero");
+  }
+
+  /// False: the row is the first end of a bar.
+  bool read_bar(Measurement& row) {
+    const csv::Field* bar = table_->text("bar");
+    const std::string name = bar == nullptr ? "" : std::string(bar->text);
+    row.value = table_->value("length");
+    if (const auto open = open_bars_.find(name); open == open_bars_.end()) {
+      open_bars_.emplace(name, row.at);
+      first_ends_.emplace(name, row.states[0]);
+      return false;
+    }
+    row.states.push_back(first_ends_.at(name));
+    open_bars_.erase(name);
+    first_ends_.erase(name);
+    return true;
   }
 
   Vector3 weight() const {
@@ -306,6 +342,7 @@ class RowReader {
                      fmt::format("{} turns; rows of kind scale need a linear axis", axes_.name(axis)));
       row.is_length = false;
       row.value = table_->value("scale");
+      set_sigma(kind, row);
       const double radius = table_->value_or("radius", default_radius);
       row.states = {moved(state.shown, axis, -radius), moved(state.shown, axis, radius)};
     }
@@ -336,7 +373,7 @@ class RowReader {
       if (is_pair)
         table_->fail("axes", fmt::format("axes is \"{}\"; the {} is that of one axis", text, name));
       Measurement one = row;
-      one.sigma = table_->value_or("sigma", default_sigma(part));
+      set_sigma(part, one);
       read_axis(part, one, found[0]);
     }
     if (is_one && table_->is_filled("squareness"))
@@ -354,7 +391,7 @@ class RowReader {
     row.session = session_of(MeasurementKind::squareness);
     row.is_length = false;
     row.value = table_->value("squareness");
-    row.sigma = table_->value_or("sigma", default_sigma(MeasurementKind::squareness));
+    set_sigma(MeasurementKind::squareness, row);
     all_.rows.push_back(std::move(row));
   }
 

@@ -60,6 +60,22 @@ Json json_of(const ProgramUncertainty& program) {
   return json;
 }
 
+/// Of a parameter's name, in SI.
+double unit_named(std::string_view name, const Identification& found) {
+  for (const IdentifiedParameter& p : found.parameters)
+    if (p.name == name) return p.unit;
+  return 1;
+}
+
+/// "x.mount.x_mm by 0.1, x.arm.x_mm by -0.1"
+std::string changes_of(const FreeCombination& free, const Identification& found) {
+  std::string text;
+  for (const FreeCombination::Term& term : free.terms)
+    text += fmt::format("{}{} by {:.2g}", text.empty() ? "" : ", ", term.name,
+                        term.change / unit_named(term.name, found));
+  return text;
+}
+
 Json json_of(const ErrorSummary& summary, double unit) {
   return {{"count", summary.count},
           {"mean", summary.mean / unit},
@@ -74,8 +90,9 @@ std::string to_text(const Identification& found) {
   std::string text;
   for (const HeldOutGroup& group : found.held_out) {
     const ErrorUnit unit = unit_of(group.kind, group.is_length);
-    text += fmt::format("held out     {}, {}: {} ({}, {} rows)\n", group.name, name_of(group.kind),
-                        pair_of(group.before, group.after, unit.si), unit.name, group.after.count);
+    text += fmt::format("held out     {}, {}: {} ({}, {} rows, {:.0f} % in their 95 % intervals)\n",
+                        group.name, name_of(group.kind), pair_of(group.before, group.after, unit.si),
+                        unit.name, group.after.count, 100 * group.in_interval);
     if (group.angle_after.count > 0)
       text += fmt::format("             orientation: {} (deg)\n",
                           pair_of(group.angle_before, group.angle_after, deg));
@@ -95,6 +112,11 @@ std::string to_text(const Identification& found) {
     if (!p.is_identified) free += (free.empty() ? "" : ", ") + p.name;
   if (!free.empty())
     text += "\nnot identified (the measurements leave more than half of the prior deviation): " + free + "\n";
+  for (const FreeCombination& combination : found.free)
+    text += fmt::format("free together {}\n", changes_of(combination, found));
+  if (!found.is_converged)
+    text += fmt::format("not converged: after {} steps the fit still moves; do not use the result\n",
+                        found.iterations);
   for (const Correlation& c : found.correlations)
     text += fmt::format("correlation  {} and {}: {:.3f}\n", c.a, c.b, c.value);
   if (found.outlier_count > 0) {
@@ -140,7 +162,8 @@ std::string to_json(const Identification& found) {
                {"kind", name_of(group.kind)},
                {"unit", unit.name},
                {"before", json_of(group.before, unit.si)},
-               {"after", json_of(group.after, unit.si)}};
+               {"after", json_of(group.after, unit.si)},
+               {"in_95_percent_interval", group.in_interval}};
     if (group.angle_after.count > 0) {
       entry["angle_deg_before"] = json_of(group.angle_before, deg);
       entry["angle_deg_after"] = json_of(group.angle_after, deg);
@@ -152,6 +175,14 @@ std::string to_json(const Identification& found) {
   json["correlations"] = Json::array();
   for (const Correlation& c : found.correlations)
     json["correlations"].push_back({{"a", c.a}, {"b", c.b}, {"value", c.value}});
+  json["free_together"] = Json::array();
+  for (const FreeCombination& free : found.free) {
+    Json terms = Json::array();
+    for (const FreeCombination::Term& term : free.terms)
+      terms.push_back({{"name", term.name}, {"change", term.change / unit_named(term.name, found)}});
+    json["free_together"].push_back(std::move(terms));
+  }
+  json["converged"] = found.is_converged;
   json["outliers"] = found.outlier_count;
   json["outlier_rows"] = Json::array();
   for (const Outlier& outlier : found.outliers)

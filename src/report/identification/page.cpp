@@ -70,20 +70,21 @@ std::string lead(const Identification& found) {
 }
 
 std::string held_out_table(const Identification& found) {
-  std::string text = "<h2>Rows that the fit did not see</h2>\n<table>\n" +
-                     row({"group", "rows", "unit", "mean", "rms", "95 %", "largest", ""}, "th");
+  std::string text =
+      "<h2>Rows that the fit did not see</h2>\n<table>\n" +
+      row({"group", "rows", "unit", "mean", "rms", "95 %", "largest", "in their 95 % intervals", ""}, "th");
   for (const HeldOutGroup& group : found.held_out) {
     const auto add = [&](const std::string& name, const ErrorSummary& a, const ErrorSummary& b,
-                         ErrorUnit unit) {
+                         ErrorUnit unit, const std::string& in_interval) {
       if (b.count == 0) return;
       text += row({name, fmt::format("{}", b.count), std::string(unit.name),
                    arrow(a.mean / unit.si, b.mean / unit.si), arrow(a.rms / unit.si, b.rms / unit.si),
                    arrow(a.p95 / unit.si, b.p95 / unit.si), arrow(a.largest / unit.si, b.largest / unit.si),
-                   bars(a.mean, b.mean, std::max(a.mean, b.mean))});
+                   in_interval, bars(a.mean, b.mean, std::max(a.mean, b.mean))});
     };
     add(fmt::format("{}, {}", xml_escaped(group.name), name_of(group.kind)), group.before, group.after,
-        unit_of(group.kind, group.is_length));
-    add("orientation", group.angle_before, group.angle_after, {"deg", deg});
+        unit_of(group.kind, group.is_length), fmt::format("{:.0f} %", 100 * group.in_interval));
+    add("orientation", group.angle_before, group.angle_after, {"deg", deg}, "");
   }
   text += "</table>\n";
   if (found.ladder.empty()) return text;

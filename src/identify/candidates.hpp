@@ -1,0 +1,24 @@
+#pragma once
+/// Which parameters of a machine are fitted, and what is known of them before.
+#include <vector>
+
+#include "counterflex/identify/identify.hpp"
+
+namespace counterflex {
+
+struct Candidates {
+  std::vector<std::size_t> varied;       ///< indices into `parameters(machine)`
+  std::vector<ParameterSet> set;         ///< by varied parameter: the first that has it
+  std::vector<bool> is_default;          ///< the machine file states no standard deviation
+  Eigen::VectorXd before, prior, least;  ///< values of the file, standard deviations, lower bounds (SI)
+};
+
+/// The parameters of the sets, without those whose standard deviation is zero, and without reversals if no
+/// row has a direction of motion.
+Candidates candidates(const Machine& machine, const Measurements& measurements,
+                      const std::vector<ParameterSet>& sets);
+
+/// Prior deviations of the candidates whose sets are in `sets`, 0 for the others.
+Eigen::VectorXd prior_of(const Candidates& candidates, const std::vector<ParameterSet>& sets);
+
+}  // namespace counterflex

@@ -1,0 +1,90 @@
+#include "identify/checks.hpp"
+
+#include <fmt/format.h>
+
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/geometry/types.hpp"
+#include "identify/fit/residuals.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr double most_spread = 5;  // ratio of measured to commanded motion that a probe's lever explains
+
+/// Median distance from the median place (m).
+double spread_of(const std::vector<Vector3>& places) {
+  const auto median = [](std::vector<double> values) {
+    const auto middle = values.begin() + static_cast<std::ptrdiff_t>(values.size() / 2);
+    std::nth_element(values.begin(), middle, values.end());
+    return *middle;
+  };
+  Vector3 centre;
+  for (int k = 0; k < 3; ++k) {
+    std::vector<double> values;
+    for (const Vector3& p : places) values.push_back(p[k]);
+    centre[k] = median(values);
+  }
+  std::vector<double> distances;
+  for (const Vector3& p : places) distances.push_back((p - centre).norm());
+  return median(distances);
+}
+
+}  // namespace
+
+void check_sessions(const Measurements& measurements) {
+  if (measurements.rows.empty())
+    throw InputError(ErrorKind::machine_or_force, {}, "there are no measurements");
+  for (std::size_t s = 0; s < measurements.sessions.size(); ++s) {
+    const Session& session = measurements.sessions[s];
+    std::size_t numbers = 0;
+    double spread = 0;
+    const Measurement* first = nullptr;
+    for (const Measurement& row : measurements.rows) {
+      if (row.session != s) continue;
+      numbers += session.kind == MeasurementKind::tracker_pose    ? 6
+                 : session.kind == MeasurementKind::tracker_point ? 3
+                                                                  : 1;
+      if (first == nullptr) first = &row;
+      spread = std::max(spread, (row.states[0].shown - first->states[0].shown).cwiseAbs().maxCoeff());
+    }
+    const std::size_t unknowns = unknowns_of(session).size();
+    if (first == nullptr) continue;
+    if (numbers <= unknowns)
+      throw InputError(
+          ErrorKind::machine_or_force, first->at,
+          fmt::format("session \"{}\" has {} measured numbers; its frames alone have {} freedoms: measure "
+                      "more states",
+                      session.name, numbers, unknowns));
+    const bool needs_motion = unknowns > 0;
+    if (needs_motion && spread < 1e-6)
+      throw InputError(ErrorKind::machine_or_force, first->at,
+                       fmt::format("all rows of session \"{}\" have the same actuator values; no fit can "
+                                   "separate its frames from the machine's parameters: measure other states",
+                                   session.name));
+  }
+}
+
+void check_units(const Session& session, const std::vector<const Measurement*>& rows,
+                 const std::vector<Pose>& X_MT) {
+  const bool is_tracker =
+      session.kind == MeasurementKind::tracker_point || session.kind == MeasurementKind::tracker_pose;
+  if (!is_tracker || rows.size() < 5) return;
+  std::vector<Vector3> measured, tips;
+  for (std::size_t i = 0; i < rows.size(); ++i) {
+    measured.push_back(rows[i]->X.p);
+    tips.push_back(X_MT[i].p);
+  }
+  const double spread = spread_of(measured), moved = spread_of(tips);
+  if (spread < most_spread * moved && moved < most_spread * spread) return;
+  throw InputError(
+      ErrorKind::machine_or_force, rows[0]->at,
+      fmt::format(
+          "session \"{}\": the measured positions spread {:.3g} mm about their middle, the tip at the "
+          "actuator values {:.3g} mm; check the units of x, y, z and of the actuators (mm or inch, deg "
+          "or rad)",
+          session.name, spread / mm, moved / mm));
+}
+
+}  // namespace counterflex

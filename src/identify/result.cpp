@@ -1,0 +1,153 @@
+#include "identify/result.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <map>
+
+namespace counterflex {
+namespace {
+
+constexpr double identified = 0.5;  // of the prior deviation: larger ones are not identified
+constexpr double strong_correlation = 0.9;
+constexpr double least_part = 0.1;  // prior deviations: smaller changes of a free combination are not named
+constexpr std::size_t most_outliers = 50, most_worst = 10;
+
+/// Reduced row echelon form with full pivoting: every row has a column of its own.
+void reduce(Eigen::MatrixXd& rows) {
+  std::vector<bool> is_done(static_cast<std::size_t>(rows.rows()), false);
+  for (Eigen::Index step = 0; step < rows.rows(); ++step) {
+    Eigen::Index row = 0, column = 0;
+    double largest = -1;
+    for (Eigen::Index i = 0; i < rows.rows(); ++i) {
+      Eigen::Index at = 0;
+      const double size = rows.row(i).cwiseAbs().maxCoeff(&at);
+      if (is_done[static_cast<std::size_t>(i)] || size <= largest) continue;
+      largest = size;
+      row = i;
+      column = at;
+    }
+    is_done[static_cast<std::size_t>(row)] = true;
+    rows.row(row) /= rows(row, column);
+    for (Eigen::Index i = 0; i < rows.rows(); ++i)
+      if (i != row) rows.row(i) -= rows(i, column) * rows.row(row);
+  }
+}
+
+/// The directions whose deviation stays above half of the prior one, each with as few parameters as possible.
+std::vector<FreeCombination> free_combinations(const std::vector<IdentifiedParameter>& parameters,
+                                               const Eigen::MatrixXd& covariance) {
+  const auto n = static_cast<Eigen::Index>(parameters.size());
+  Eigen::VectorXd prior(n);
+  for (Eigen::Index k = 0; k < n; ++k) prior[k] = parameters[static_cast<std::size_t>(k)].prior;
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(prior.cwiseInverse().asDiagonal() * covariance *
+                                                             prior.cwiseInverse().asDiagonal());
+  const auto count = (eigen.eigenvalues().array() > identified * identified).count();
+  Eigen::MatrixXd rows = eigen.eigenvectors().rightCols(count).transpose();
+  reduce(rows);
+  std::vector<FreeCombination> found;
+  for (const auto& row : rows.rowwise()) {
+    FreeCombination free;
+    for (Eigen::Index k = 0; k < n; ++k)
+      if (std::abs(row[k]) > least_part)
+        free.terms.push_back({parameters[static_cast<std::size_t>(k)].name, row[k] * prior[k]});
+    if (free.terms.size() > 1) found.push_back(std::move(free));
+  }
+  return found;
+}
+
+}  // namespace
+
+void fill_parameters(const Machine& machine, const Candidates& candidates, const Fit& fit,
+                     const Eigen::VectorXd& prior, const Eigen::MatrixXd& covariance,
+                     Identification& result) {
+  const std::vector<Parameter> all = parameters(machine);
+  std::vector<double> values;
+  for (const Parameter& parameter : all) values.push_back(parameter.value);
+  std::vector<Eigen::Index> kept;
+  for (Eigen::Index k = 0; k < prior.size(); ++k) {
+    if (prior[k] == 0) continue;
+    kept.push_back(k);
+    const std::size_t index = candidates.varied[static_cast<std::size_t>(k)];
+    const double sigma = std::min(std::sqrt(covariance(k, k)), prior[k]);
+    result.parameters.push_back(
+        {all[index].name, all[index].kind, all[index].unit, all[index].value, fit.values[k], prior[k], sigma,
+         candidates.is_default[static_cast<std::size_t>(k)], sigma < identified * prior[k]});
+    values[index] = fit.values[k];
+  }
+  result.machine = with_parameters(machine, values);
+  result.covariance = covariance(kept, kept);
+  result.free = free_combinations(result.parameters, fit.covariance(kept, kept));
+  for (std::size_t i = 0; i < result.parameters.size(); ++i)
+    for (std::size_t j = 0; j < i; ++j) {
+      const auto a = static_cast<Eigen::Index>(i), b = static_cast<Eigen::Index>(j);
+      const double value =
+          result.covariance(a, b) / std::sqrt(result.covariance(a, a) * result.covariance(b, b));
+      if (std::abs(value) > strong_correlation && result.parameters[i].is_identified &&
+          result.parameters[j].is_identified)
+        result.correlations.push_back({result.parameters[j].name, result.parameters[i].name, value});
+    }
+}
+
+void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result) {
+  std::vector<std::pair<double, std::size_t>> ratios;
+  double squares = 0;
+  std::size_t count = 0;
+  for (std::size_t i = 0; i < fit.rows.size(); ++i) {
+    const LinearRow& row = fit.rows[i];
+    const Measurement& measured = problem.measurements.rows[i];
+    const double error = row.at.is_found ? row.at.r.head(row.at.distances).norm() * measured.sigma : 0;
+    ratios.emplace_back(ratio(row), i);
+    if (row.weight == 0 || !row.at.is_found)
+      result.outliers.push_back(
+          {measured.at, problem.measurements.sessions[row.session].name, error, ratio(row)});
+    else if (measured.is_length) {
+      squares += error * error;
+      ++count;
+    }
+  }
+  if (count > 0) result.lack_of_fit = std::sqrt(squares / static_cast<double>(count));
+  std::stable_sort(ratios.begin(), ratios.end(),
+                   [](const auto& a, const auto& b) { return a.first > b.first; });
+  for (const auto& [size, i] : ratios)
+    if (fit.rows[i].weight > 0 && result.worst.size() < most_worst)
+      result.worst.push_back(problem.measurements.rows[i].at);
+  std::stable_sort(result.outliers.begin(), result.outliers.end(),
+                   [](const Outlier& a, const Outlier& b) { return a.ratio > b.ratio; });
+  result.outlier_count = result.outliers.size();
+  if (result.outliers.size() > most_outliers) result.outliers.resize(most_outliers);
+}
+
+std::optional<double> repeatability_of(const Measurements& measurements) {
+  double squares = 0;
+  int freedoms = 0;
+  std::map<std::pair<std::size_t, std::vector<long>>, std::vector<const Measurement*>> same;
+  for (const Measurement& row : measurements.rows) {
+    std::vector<long> state;
+    for (const CommandedState& at : row.states) {
+      for (const double value : at.shown) state.push_back(std::lround(value * 1e6));
+      for (const double value : at.F) state.push_back(std::lround(value * 1e3));
+      state.push_back(static_cast<long>(at.directions.forward));
+      state.push_back(static_cast<long>(at.directions.backward));
+    }
+    for (const double value : row.direction) state.push_back(std::lround(value * 1e4));
+    same[{row.session, state}].push_back(&row);
+  }
+  for (const auto& [key, rows] : same) {
+    const bool is_feature = measurements.sessions[key.first].kind == MeasurementKind::cmm_feature;
+    if (rows.size() < 2 || !rows[0]->is_length || is_feature) continue;
+    Vector3 mean = Vector3::Zero();
+    double value = 0;
+    for (const Measurement* row : rows) {
+      mean += row->X.p / static_cast<double>(rows.size());
+      value += row->value / static_cast<double>(rows.size());
+    }
+    for (const Measurement* row : rows)
+      squares += (row->X.p - mean).squaredNorm() + (row->value - value) * (row->value - value);
+    freedoms += static_cast<int>(rows.size()) - 1;
+  }
+  if (freedoms < 3) return {};
+  return std::sqrt(squares / freedoms);
+}
+
+}  // namespace counterflex
