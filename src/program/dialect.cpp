@@ -1,7 +1,11 @@
 #include "program/dialect.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <array>
 
+#include "counterflex/program/dialects.hpp"
 #include "counterflex/program/read_program.hpp"
 
 namespace counterflex {
@@ -103,10 +107,14 @@ bool is_robot_dialect(std::string_view dialect) {
   return !robot_language_of(dialect).empty();
 }
 
-std::string dialect_names() {
-  std::string names = "auto";
-  for (const Dialect* dialect : dialects) names.append(", ").append(dialect->name);
+std::vector<std::string_view> known_dialects() {
+  std::vector<std::string_view> names{"auto"};
+  for (const Dialect* dialect : dialects) names.push_back(dialect->name);
   return names;
+}
+
+std::string dialect_names() {
+  return fmt::format("{}", fmt::join(known_dialects(), ", "));
 }
 
 }  // namespace counterflex

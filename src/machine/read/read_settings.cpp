@@ -7,6 +7,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/program/dialects.hpp"
 #include "machine/read/read_load_limits.hpp"
 #include "machine/read/read_transform.hpp"
 #include "machine/spindle_axes.hpp"
@@ -16,10 +17,6 @@ namespace counterflex::toml_file {
 namespace {
 
 const std::vector<std::string_view> component_names = {"x", "y", "z", "rx", "ry", "rz"};
-
-const std::vector<std::string_view> dialects = {"auto",  "linuxcnc", "grbl",       "fanuc",  "haas",
-                                                "mach3", "siemens",  "heidenhain", "kuka",   "abb",
-                                                "ur",    "apt",      "fanuc_tp",   "yaskawa"};
 
 constexpr double strongest_gravity = 100;  // m/s2: larger values probably have a wrong unit
 
@@ -160,7 +157,7 @@ void read_program(const toml::table& document, const Source& source, Machine& ma
   const toml::table& table = as_table(*node, "program", source);
   check_keys(table, {"dialect", "units", "tool_change_moves", "arc_centres"}, "[program]", source);
   if (const toml::node* dialect = table.get("dialect"))
-    machine.control.dialect = as_choice(*dialect, "dialect", dialects, source);
+    machine.control.dialect = as_choice(*dialect, "dialect", known_dialects(), source);
   if (const toml::node* units = table.get("units"))
     machine.control.units = as_choice(*units, "units", {"mm", "inch"}, source);
   if (const toml::node* moves = table.get("tool_change_moves"))
