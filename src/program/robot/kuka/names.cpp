@@ -42,7 +42,7 @@ bool names_targets(std::string_view lines) {
     const auto assignment = assignment_in(lines, line.code);
     if (!assignment || lines[assignment->variable.begin] == '$') continue;
     const auto aggregate = aggregate_at(lines, assignment->value.begin, assignment->value.end);
-    if (aggregate && krl_target(*aggregate)) return true;
+    if (aggregate && (krl_target(*aggregate) || find_component(*aggregate, "A1") != nullptr)) return true;
   }
   return false;
 }

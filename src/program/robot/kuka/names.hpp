@@ -24,8 +24,8 @@ std::optional<KrlAssignment> assignment_at(std::string_view text, std::size_t at
 /// The assignment of a statement, also behind the words of a declaration: "DECL E6POS P1 = {X 1}".
 std::optional<KrlAssignment> assignment_in(std::string_view text, Span code);
 
-/// Whether a line of `lines` gives a target or a frame a name, so that moves may depend on lines far before
-/// them.
+/// Whether a line of `lines` gives a target, also in joint values, or a frame a name, so that moves may
+/// depend on lines far before them.
 bool names_targets(std::string_view lines);
 
 /// How often the statements of `text` have each variable: "P1", "P[3]", without members. Declarations without

@@ -207,6 +207,22 @@ TEST_CASE("a program with a list that is longer than what is read at once is one
   CHECK(!reader.next());
 }
 
+TEST_CASE("a list of joint targets alone is read with a program that is longer than what is read at once") {
+  std::string program = "DEF job()\nPTP XSTART\nLIN {X 1,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n";
+  for (int i = 0; i < 8000; ++i) program += ";" + std::string(40, '-') + "\n";
+  FileReader bytes = FileReader::of_bytes(joined(
+      program + "END\n", "DEFDAT job\nDECL E6AXIS XSTART={A1 0,A2 -90,A3 90,A4 0,A5 90,A6 0}\nENDDAT\n"));
+  ReadOptions options;
+  options.kinematics = [](const JointPlace& place, std::int32_t, const ProgramFrame&) {
+    CHECK(place.joints[1] == doctest::Approx(-1.5707963267948966));
+    return std::optional(Pose{});
+  };
+  ProgramReader reader(bytes, "job.src", options);
+  REQUIRE(reader.next());
+  REQUIRE(reader.window().moves.size() == 1);
+  CHECK(bool(reader.window().moves[0].starts_uncorrected));
+}
+
 TEST_CASE("joined files are divided into the same bytes") {
   for (const std::string first : {"a\nb", "a\nb\n", "", "a\r\n"})
     for (const std::string second : {"c", "c\n", "\n", "d\r\n"}) {
