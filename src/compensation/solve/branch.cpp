@@ -23,8 +23,9 @@ std::optional<Failure> configuration_failure(const Model& model, const Configura
                              margin->angle / deg, margin->what, least_arm_margin / deg)};
 }
 
-// Where the way from home to a place crosses another configuration of the arm: which one.
-std::optional<Failure> failure_on_the_way(PlaceSolver& solver, const TipPosition& to, int line) {
+// Why an arm does not reach a place on the branch of home, if another configuration is on the way.
+std::optional<Failure> failure_on_the_way(PlaceSolver& solver, const TipPosition& to, Status status,
+                                          int line) {
   const Model& model = *to.model;
   const Pose home = tip(model.mechanism, model.home);
   const Vector3 turn = rotation_between(*to.R_MT, home.R);
@@ -38,7 +39,14 @@ std::optional<Failure> failure_on_the_way(PlaceSolver& solver, const TipPosition
     if (is_reached) last = there.configuration;
     (is_reached ? reached : beyond) = u;
   }
-  return configuration_failure(model, last, line);
+  const auto margin = arm_margin(model, last);
+  if (!margin || margin->angle >= least_arm_margin) return std::nullopt;
+  return Failure{ErrorKind::not_compensated, line,
+                 fmt::format("the machine's equilibrium is not solved here: {}; on the way from home the arm "
+                             "comes within {:.2f} deg of another configuration ({}): turn the tool about its "
+                             "axis, or move the part",
+                             to_string(status), margin->angle / deg, margin->what),
+                 0, status};
 }
 
 void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd& values, int line) {
@@ -90,7 +98,7 @@ FollowedPath follow_branch(const Job& job) {
         }
       }
       if ((status == Status::singular || status == Status::unreachable) && next.R_MT)
-        followed.failure = failure_on_the_way(solver, next, segment.line);
+        followed.failure = failure_on_the_way(solver, next, status, segment.line);
       if (status != Status::converged && !followed.failure)
         followed.failure = status_failure(job, status, segment, next.p_MT);
       if (followed.failure) return followed;
