@@ -54,6 +54,7 @@ void write(const ParameterPlace& place, double value) {
     c[i] = value;
     error->X = {exp_so3(c.tail<3>()), c.head<3>()};
   } else if (auto* joint = std::get_if<Compliance>(place.element)) {
+    if (joint->beyond) joint->beyond->stiffness /= value * joint->stiffness;
     joint->stiffness = 1 / value;
   } else if (auto* mass = std::get_if<PointMass>(place.element)) {
     mass->kg = value;

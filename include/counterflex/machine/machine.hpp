@@ -133,11 +133,19 @@ struct Spring {
   Vector6 theta_0 = Vector6::Zero();
 };
 
-/// One elastic coordinate theta along or about an axis, energy 1/2 k theta^2.
+/// The stiffness of a joint above a load: gears are softer where few teeth carry.
+struct SecondSlope {
+  double knee = 0;       ///< N or N m, positive: the load of either sign at which the slope changes
+  double stiffness = 0;  ///< of larger loads, positive
+};
+
+/// One elastic coordinate theta along or about an axis, energy 1/2 k theta^2; with a second slope that of
+/// EQUATIONS.md, section 13.
 struct Compliance {
   Joint joint;
-  double stiffness = 0;  ///< N/m or N m/rad, positive
+  double stiffness = 0;  ///< N/m or N m/rad, positive; with a second slope that below its knee
   std::string name{};    ///< of its parameter; may be empty
+  std::optional<SecondSlope> beyond{};
 };
 
 /// A point mass fixed in the frame at its place in the chain: a file's `mass` beside an element follows that

@@ -23,6 +23,8 @@ struct Part {
   Pose X;                           ///< fixed, error; of a mass its place, without rotation
   Vector3 log_R = Vector3::Zero();  ///< error: Log of X.R, so that a fraction of the error can act
   double k = 0;                     ///< passive, compliance: N/m or N m/rad
+  double k_change = 0;              ///< compliance: of k beyond the knee; 0: it is linear
+  double knee = 0;                  ///< deflection at which k changes (m, rad)
   double rest = 0;                  ///< passive: value without force
   bool rest_at_home = false;
   double home = 0;              ///< actuator, passive: start of inverse kinematics

@@ -51,20 +51,19 @@ void fill_clamped(const Model& model, const Configuration& free, const ClampedTo
   const Vector6 y_scaled = decomposition.solve(J_scaled);
   if (!((scaled * y_scaled - J_scaled).norm() < outside * J_scaled.norm())) return;
   const Vector6 y = unit.cwiseProduct(y_scaled);
-  const double compliance = 1 / J->dot(y);
-  at.turn = compliance * clamped.torque;
   if (clamped.torque == 0) return;
-  // The change of the complementary energy with a compliance is half of the work of F on the change of the
-  // tip: d turn = F' (dX(F) - dX(0)) / torque.
-  const Load load{-y * at.turn, false};
+  const double stiffness = J->dot(y);
+  const Load load{-y * (clamped.torque / stiffness), false};
   const Equilibrium loaded = refine_forward(model, free, load, Stage{}, work);
   if (loaded.status != Status::converged) {
     at.status = loaded.status;
     return;
   }
+  // The free tip moves by -J turn under the clamp's force; also where a joint is not linear.
+  at.turn = -y.dot(difference(tip(model.mechanism, loaded.configuration), at.X_MT)) / stiffness;
   const Eigen::RowVectorXd change =
-      load.F.transpose() * (tangents.of.of_tip(loaded.configuration, load, tangent_work) - at.tangents) /
-      clamped.torque;
+      -y.transpose() * (tangents.of.of_tip(loaded.configuration, load, tangent_work) - at.tangents) /
+      stiffness;
   for (Eigen::Index k = 0; k < change.size(); ++k)
     if (tangents.is_compliance[static_cast<std::size_t>(k)]) at.turn_tangents[k] = change[k];
 }

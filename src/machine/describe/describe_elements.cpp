@@ -66,7 +66,12 @@ Line line_of(const Element& element, ActuatorNumbers& numbers) {
             return Line{"spring", spring.name};
           },
           [](const Compliance& c) {
-            return Line{"compliance", phrase(c.joint) + ", " + phrase_stiffness(c.joint, c.stiffness)};
+            std::string text = phrase(c.joint) + ", " + phrase_stiffness(c.joint, c.stiffness);
+            if (c.beyond)
+              text += fmt::format(", above {:.6g} {} {}", c.beyond->knee,
+                                  c.joint.kind == JointKind::prismatic ? "N" : "N m",
+                                  phrase_stiffness(c.joint, c.beyond->stiffness));
+            return Line{"compliance", text};
           },
           [](const Group& group) {
             return Line{"parallel", counted(static_cast<int>(group.branches.size()), "branch", "branches")};

@@ -18,7 +18,8 @@ struct JointKeys {
   std::string_view min, max, home, preload, stiffness, compliance;
   std::array<std::string_view, 2> reversal;  ///< of which each has its unit in `reversal_units`
   std::array<double, 2> reversal_units;
-  std::string_view stiffness_per_arcmin{};  ///< of rotary joints
+  std::string_view knee, stiffness_above;
+  std::string_view stiffness_per_arcmin{}, stiffness_above_per_arcmin{};  ///< of rotary joints
 };
 
 constexpr JointKeys prismatic = {JointKind::prismatic,
@@ -31,7 +32,9 @@ constexpr JointKeys prismatic = {JointKind::prismatic,
                                  "stiffness_N_per_m",
                                  "compliance_m_per_N",
                                  {"reversal_um", "reversal_mm"},
-                                 {um, mm}};
+                                 {um, mm},
+                                 "knee_N",
+                                 "stiffness_above_N_per_m"};
 constexpr JointKeys revolute = {JointKind::revolute,
                                 "revolute",
                                 deg,
@@ -43,7 +46,10 @@ constexpr JointKeys revolute = {JointKind::revolute,
                                 "compliance_rad_per_Nm",
                                 {"reversal_mdeg", "reversal_arcsec"},
                                 {1e-3 * deg, deg / 3600},
-                                "stiffness_Nm_per_arcmin"};
+                                "knee_Nm",
+                                "stiffness_above_Nm_per_rad",
+                                "stiffness_Nm_per_arcmin",
+                                "stiffness_above_Nm_per_arcmin"};
 
 constexpr double per_arcmin = 10800 / pi;  // 1 N m/arcmin in N m/rad
 
@@ -138,6 +144,31 @@ void read_preload(Passive& passive, const toml::table& table, const JointKeys& k
   passive.rest_at_home = true;
 }
 
+/// The keys that give the stiffness above the knee.
+std::vector<std::string_view> stiffness_above_keys(const JointKeys& keys) {
+  std::vector<std::string_view> all = {keys.stiffness_above};
+  if (!keys.stiffness_above_per_arcmin.empty()) all.push_back(keys.stiffness_above_per_arcmin);
+  return all;
+}
+
+void read_second_slope(const toml::table& table, const JointKeys& keys, std::string_view owner,
+                       const Reading& reading, Compliance& compliance) {
+  const std::string_view form = one_of(table, stiffness_above_keys(keys), owner, reading.source);
+  const toml::node* knee = table.get(keys.knee);
+  if (form.empty() && knee == nullptr) return;
+  if (form.empty() || knee == nullptr)
+    reading.source.fail(
+        key_of(table, form.empty() ? keys.knee : form),
+        fmt::format("{} has {} without {}; a second slope needs both", owner, form.empty() ? keys.knee : form,
+                    form.empty() ? keys.stiffness_above : keys.knee));
+  SecondSlope beyond;
+  beyond.knee = as_positive(*knee, {keys.knee}, reading);
+  const double value = as_positive(*table.get(form), {form}, reading);
+  beyond.stiffness = form == keys.stiffness_above ? value : value * per_arcmin;
+  refuse_too_stiff(beyond.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
+  compliance.beyond = beyond;
+}
+
 }  // namespace
 
 Actuator read_actuator(const toml::table& table, const Reading& reading, ActuatorsBefore& before) {
@@ -185,6 +216,8 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   forms.push_back(keys.compliance);
   std::vector<std::string_view> allowed = {"compliance", "axis", "preload", "mass", "name"};
   allowed.insert(allowed.end(), forms.begin(), forms.end());
+  allowed.push_back(keys.knee);
+  for (const std::string_view key : stiffness_above_keys(keys)) allowed.push_back(key);
   check_keys(table, allowed, owner, reading.source);
   Compliance compliance;
   compliance.joint = read_joint(table, keys, owner, reading);
@@ -195,6 +228,7 @@ Compliance read_compliance(const toml::table& table, const Reading& reading) {
   const double value = as_positive(*table.get(form), {form}, reading);
   compliance.stiffness = form == keys.compliance ? 1 / value : stiffness_in_si(value, form, keys);
   refuse_too_stiff(compliance.stiffness, owner, unit_of(keys), *table.get(form), reading.source);
+  read_second_slope(table, keys, owner, reading, compliance);
   if (const toml::node* name = table.get("name"))
     compliance.name = as_identifier(*name, "name", reading.source);
   // In the nominal configuration its coordinate is 0, so that "home" is the default.

@@ -76,7 +76,7 @@ double stiffest(const Series& series, double length) {
   for (const Part& part : series.parts) {
     const bool angular = part.joint.kind == JointKind::revolute;
     if (part.kind == PartKind::passive || part.kind == PartKind::compliance)
-      largest = std::max(largest, part.k / (angular ? length * length : 1));
+      largest = std::max(largest, (part.k + std::max(part.k_change, 0.0)) / (angular ? length * length : 1));
     if (part.kind == PartKind::spring)
       largest = std::max({largest, part.K.topLeftCorner<3, 3>().cwiseAbs().maxCoeff(),
                           part.K.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff() / (length * length)});

@@ -61,6 +61,10 @@ struct Compiler {
   }
   Part operator()(const Compliance& e) {
     Part part{.kind = PartKind::compliance, .joint = e.joint, .k = e.stiffness};
+    if (e.beyond) {
+      part.k_change = e.beyond->stiffness - e.stiffness;
+      part.knee = e.beyond->knee / e.stiffness;
+    }
     joint_column(part);
     return part;
   }

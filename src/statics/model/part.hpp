@@ -1,5 +1,6 @@
 #pragma once
 /// One part of a series at one state: its transform, and what deflects it.
+#include "statics/model/joint_law.hpp"
 #include "statics/model/motion_errors.hpp"
 
 namespace counterflex {
@@ -23,6 +24,13 @@ Vector6 spring_deflection(const Part& spring, const SeriesState& state, const St
 /// for a compliance.
 double joint_deflection(const Part& joint, const SeriesState& state, const Stage& stage);
 
+/// Its force and stiffness there.
+inline JointForce<double> force_of_joint(const Part& joint, const SeriesState& state, const Stage& stage) {
+  const double x = joint_deflection(joint, state, stage);
+  if (joint.k_change == 0) return {joint.k * x, joint.k};
+  return joint_force(joint.k, joint.k_change, joint.knee, x);
+}
+
 /// One coordinate of a part (m or rad; N or N m).
 struct PartCoordinate {
   int component = -1;  ///< of a spring, 0 to 5; else -1
@@ -41,7 +49,7 @@ void visit_coordinates(const Part& part, const SeriesState& state, const Stage& 
     for (int k = 0; k < 6; ++k) visit(PartCoordinate{k, k >= 3, theta[k], theta[k], tau[k]});
   } else if (part.column >= 0 && part.kind != PartKind::group) {
     const double x = state.x[part.column];
-    const double load = part.kind == PartKind::actuator ? 0 : part.k * joint_deflection(part, state, stage);
+    const double load = part.kind == PartKind::actuator ? 0 : force_of_joint(part, state, stage).force;
     visit(PartCoordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column],
                          load});
   }

@@ -228,7 +228,9 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
   const kernel::StartCell* cell = impl_->target_at((line.p0 + line.p1) / 2);
   // The expansion of a cell misses the bends of error tables inside it.
-  if (cell == nullptr || !impl_->table.flat.machine.motions.empty()) return {infinity, infinity};
+  // They miss the knees of joints, too.
+  if (cell == nullptr || !impl_->table.flat.machine.motions.empty() || impl_->table.flat.machine.has_knees)
+    return {infinity, infinity};
   const Vector3 centre(cell->centre[0], cell->centre[1], cell->centre[2]);
   for (const Vector3& p : {line.p0, line.p1})
     if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.reach)) return {infinity, infinity};

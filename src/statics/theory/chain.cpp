@@ -17,7 +17,7 @@ double part_energy(const Part& part, const SeriesState& state, const Stage& stag
   }
   if (part.kind != PartKind::passive && part.kind != PartKind::compliance) return 0;
   const double q = joint_deflection(part, state, stage);
-  return 0.5 * part.k * q * q;
+  return joint_energy(part.k, part.k_change, part.knee, q);
 }
 
 }  // namespace

@@ -70,15 +70,20 @@ SeriesState with_error_coordinates(const Series& plain, const Series& series, co
   return result;
 }
 
-/// d gradient / d parameter (SI) of a compliance: its forces fall with 1 / c.
+double stiffness_at(const Part& joint, double x) {
+  return joint.k_change == 0 ? joint.k : joint_force(joint.k, joint.k_change, joint.knee, x).stiffness;
+}
+
+/// d gradient / d parameter (SI) of a compliance: its forces fall with 1 / c. That of a joint with a knee is
+/// F(x / c) with the knee's load held, so that dF/dc = -x dF/dx / c.
 void add_force_change(const VariedParameter& varied, const WholeSystem& system, const Units& units,
                       const Eigen::VectorXd& deflection, Eigen::Ref<Eigen::VectorXd> column) {
   const bool is_spring = varied.at.part->kind == PartKind::spring;
   const int count = is_spring && varied.component < 0 ? 6 : 1, first = std::max(varied.component, 0);
   for (int i = first; i < first + count; ++i) {
     const int row = varied.at.variable + i;
-    const double force =
-        is_spring ? varied.at.part->K.row(i).dot(deflection) : varied.at.part->k * deflection[0];
+    const double force = is_spring ? varied.at.part->K.row(i).dot(deflection)
+                                   : stiffness_at(*varied.at.part, deflection[0]) * deflection[0];
     column[row] -= units.of_column(system.variables[row].angular) / units.energy() * force / varied.value;
   }
 }

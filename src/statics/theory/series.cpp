@@ -52,8 +52,9 @@ void place(const Series& series, const SeriesState& state, const Stage& stage, S
 void add_energy(const Part& part, const SeriesState& state, const Stage& stage, SeriesWork& work) {
   const int c = part.column;
   if (part.kind == PartKind::passive || part.kind == PartKind::compliance) {
-    work.gradient[c] += part.k * joint_deflection(part, state, stage);
-    work.A(c, c) += part.k;
+    const JointForce<double> joint = force_of_joint(part, state, stage);
+    work.gradient[c] += joint.force;
+    work.A(c, c) += joint.stiffness;
   } else if (part.kind == PartKind::spring) {
     work.gradient.segment<6>(c).noalias() += part.K * spring_deflection(part, state, stage);
     work.A.block<6, 6>(c, c) += part.K;

@@ -5,6 +5,7 @@
 #include "counterflex/machine/create.hpp"
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
+#include "statics/support/laws_knees.hpp"
 #include "statics/support/laws_tables.hpp"
 
 using namespace counterflex;
@@ -82,6 +83,9 @@ TEST_CASE("tangents of the tip by parameters are central differences of solved m
     Machine machine = sample("robot-ur10");
     machine.gravity.true_at_home = false;
     check_tangents(machine);
+  }
+  SUBCASE("a robot whose joints are stiffer above a load, some of them below it") {
+    check_tangents(laws::with_knees(sample("robot-ur10"), 25, 3));
   }
   SUBCASE("a parallel machine with parallelograms") {
     check_tangents(sample("orthoglide-groove"));

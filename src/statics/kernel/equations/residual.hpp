@@ -1,6 +1,7 @@
 #pragma once
 /// The gradient of energy at a state. EQUATIONS.md, section 11.
 #include "statics/kernel/equations/work.hpp"
+#include "statics/model/joint_law.hpp"
 
 namespace counterflex::kernel {
 
@@ -168,7 +169,9 @@ template <class T>
 COUNTERFLEX_INLINE void evaluate_joint(const FrameStep& step, const Vec6<T>& phi, Work<T>& work) {
   if (!step.is_joint() || step.actuator >= 0) return;
   JointTerms<T>& joint = at(work.equations.joints, step.joint);
-  joint.r = step.k * (at(work.state.joints, step.joint).q - step.rest) - dot(joint.s, phi);
+  const T x = at(work.state.joints, step.joint).q - step.rest;
+  const T force = step.k_change == 0 ? T(step.k * x) : joint_force(step.k, step.k_change, step.knee, x).force;
+  joint.r = force - dot(joint.s, phi);
   work.equations.largest_force =
       larger(work.equations.largest_force,
              magnitude(joint.r) * (step.kind == StepKind::turn ? 1 / work.machine.length : 1.0));

@@ -139,7 +139,11 @@ COUNTERFLEX_INLINE void eliminate_joint(const FrameStep& step, double side, cons
     columns.c[slots[eliminated++]] = u * -1.0;
     return;
   }
-  const T pivot = dot(s, u) + step.k;
+  T pivot = dot(s, u) + step.k;
+  if (step.k_change != 0) {
+    const T x = at(work.state.joints, step.joint).q - step.rest;
+    pivot = dot(s, u) + joint_force(step.k, step.k_change, step.knee, x).stiffness;
+  }
   JointFactor<T>& factor = at(work.factors.joints, step.joint);
   factor.inverse = select<T>(magnitude(pivot) > least_pivot, 1.0 / pivot, T{});
   factor.u = u * factor.inverse;

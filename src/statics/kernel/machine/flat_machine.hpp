@@ -35,6 +35,8 @@ struct FrameStep {
   int actuator = -1;     ///< number of the actuator; -1: the joint is free
   int motion = -1;       ///< of an actuator with errors of its motion: index into FlatMachine::motions
   double k = 0;          ///< of a free joint: N/m or N m/rad
+  double k_change = 0;   ///< of a free joint beyond its knee; 0: it is linear
+  double knee = 0;       ///< its deflection there (m, rad)
   double rest = 0;       ///< value without force (m, rad)
   /// Its spring is relaxed in the nominal configuration, as far as preloads do not act.
   bool passive = false;
@@ -119,6 +121,7 @@ struct FlatMachine {
   std::vector<char> joint_turns;  ///< by joint
   int chains = 0, joints = 0, nodes = 0, couplings = 0;
   int most_actuators = 0;            ///< of one series
+  bool has_knees = false;            ///< of a joint
   bool has_hanging_weights = false;  ///< in branches, or before an element: tangents leave out how these turn
   int rigid_closures = 0;            ///< pairs of springs K and -K: each has six negative pivots
   std::array<bool, 6> controlled{};

@@ -169,6 +169,8 @@ class SeriesFlattener {
     step.actuator = part.actuator;
     step.passive = part.kind == PartKind::passive;
     step.k = parts_.flat.rigid ? 0 : part.k;
+    if (!parts_.flat.rigid) step.k_change = part.k_change, step.knee = part.knee;
+    machine_.has_knees = machine_.has_knees || step.k_change != 0;
     step.rest = step.passive ? part.rest : 0;
     if (part.kind == PartKind::actuator) at(machine_.actuator_offset, part.actuator) = part.offset;
     stretch().items.push_back({step, {}, {number_, part.column}});
