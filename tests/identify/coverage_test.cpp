@@ -58,6 +58,7 @@ struct Share {
 /// Of true values in the 95 % intervals of the fit, and of measured numbers in those of a fit without them.
 struct Coverage {
   Share parameters, predictions;
+  unsigned converged = 0;  ///< campaigns
 };
 
 /// A machine, and the states of its campaigns: within `length` (m) and `turn` (rad) of home, pushed by
@@ -82,6 +83,7 @@ Coverage coverage_of(const Campaign& campaign, unsigned from, unsigned to) {
     IdentifyOptions options;
     options.ladder = false;
     const Identification found = identify(nominal, all, options);
+    coverage.converged += found.is_converged;
     const std::vector<Parameter> real = parameters(truth);
     for (const IdentifiedParameter& parameter : found.parameters) {
       if (parameter.is_default_prior) continue;
@@ -108,6 +110,7 @@ const Campaign orthoglide{MachineKind::orthoglide, 0.06, 0, 200};
 void check_coverage(const Campaign& campaign, unsigned campaigns, double least, double most) {
   const Coverage coverage = coverage_of(campaign, 0, campaigns);
   CAPTURE(static_cast<int>(campaign.kind));
+  CHECK(coverage.converged == campaigns);
   CAPTURE(coverage.parameters.count);
   CHECK(coverage.parameters.value() > least);
   CHECK(coverage.parameters.value() < most);

@@ -115,9 +115,19 @@ TEST_CASE("the result does not depend on the order of rows, on the tracker's fra
     }
   };
   SUBCASE("threads") {
-    IdentifyOptions options = without_ladder();
-    options.threads = 1;
-    check_same(identify(nominal, all, options), 0);
+    // More rows than one thread takes at a time, with everything that is computed from them.
+    Measurements many;
+    add_tracker(truth, tracker_frame, probe, true, 600, 0, 0.8, 2e-5, random, many, "tracker");
+    IdentifyOptions options;
+    const Identification one = identify(nominal, many, options);
+    options.threads = 3;
+    const Identification three = identify(nominal, many, options);
+    REQUIRE(one.parameters.size() == three.parameters.size());
+    for (std::size_t k = 0; k < one.parameters.size(); ++k)
+      CHECK(one.parameters[k].value == three.parameters[k].value);
+    CHECK(one.covariance == three.covariance);
+    for (std::size_t g = 0; g < one.held_out.size(); ++g)
+      CHECK(one.held_out[g].after.mean == three.held_out[g].after.mean);
   }
   SUBCASE("order") {
     std::reverse(all.rows.begin(), all.rows.end());

@@ -1,5 +1,8 @@
 #include <doctest/doctest.h>
 
+#include <filesystem>
+#include <fstream>
+
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/measurements.hpp"
 #include "counterflex/machine/read_machine.hpp"
@@ -114,4 +117,30 @@ TEST_CASE("bad measurements are refused at their place") {
         "data.csv:2:1: error: bar \"a\" has one end; a bar has two rows, one for each end");
   CHECK(error_of("kind,axes,squareness_um_per_m\nsquareness,XB,-18\n") ==
         "data.csv:2:12: error: axes is \"XB\"; it must name two linear axes of the machine, as XY");
+}
+
+TEST_CASE("a description states the frame of its rows and where the probe is expected") {
+  const std::filesystem::path folder = std::filesystem::temp_directory_path();
+  const std::string table = (folder / "counterflex_described.csv").string(),
+                    description = (folder / "counterflex_described.toml").string();
+  std::ofstream(table) << "X_mm,Y_mm,Z_mm,a,b,c\n1,2,3,4,5,6\n";
+  const auto described = [&](const std::string& lines) {
+    std::ofstream(description) << "format = \"counterflex-measurements 1\"\n"
+                                  "file = \"counterflex_described.csv\"\nkind = \"tracker_point\"\n"
+                               << lines
+                               << "[columns]\nX_mm = \"X_mm\"\nY_mm = \"Y_mm\"\nZ_mm = \"Z_mm\"\n"
+                                  "x_mm = \"a\"\ny_mm = \"b\"\nz_mm = \"c\"\n";
+    Measurements all;
+    load_measurements(description, mill(), all);
+    REQUIRE(all.sessions.size() == 1);
+    return all.sessions[0];
+  };
+  const Session plain = described("");
+  CHECK_FALSE(plain.has_known_frame);
+  CHECK(plain.probe_sigma == 0.3);
+  const Session stated = described("frame = \"machine\"\nprobe = { xyz_mm = [1, 2, 3], sigma_mm = 2 }\n");
+  CHECK(stated.has_known_frame);
+  CHECK(stated.X_TB.p.isApprox(Vector3(1e-3, 2e-3, 3e-3), 1e-12));
+  CHECK(stated.probe_sigma / 2e-3 == doctest::Approx(1));
+  CHECK_THROWS_AS(described("probe = { sigma_mm = 0 }\n"), InputError);
 }

@@ -10,10 +10,11 @@ namespace counterflex {
 namespace {
 
 // Tuned on the measured UR10: fewer Huber rounds let gross errors pull the first frames.
-constexpr int huber_rounds = 3, most_rounds = 30, most_linearisations = 40;
-constexpr double huber = 2.0;              // deviations, per component of a row
-constexpr double tukey = 6.0;              // rows farther out than this are left out
-constexpr double end_of_steps = 1e-6;      // of a parameter's deviation
+constexpr int huber_rounds = 3, most_rounds = 30, most_linearisations = 100;
+constexpr double huber = 2.0;          // deviations, per component of a row
+constexpr double tukey = 6.0;          // rows farther out than this are left out
+constexpr double end_of_steps = 1e-6;  // of a parameter's deviation
+constexpr double slow_contraction_of_steps = 0.5;
 constexpr double largest_rounding = 1e-3;  // of a step that does not become smaller any more
 // Damping after the first rejected step, and below which it is dropped. Every further rejection in a row
 // doubles the factor by which it grows.
@@ -289,8 +290,9 @@ Fit fit(const FitProblem& problem, std::vector<SessionFrames> start) {
     ++result.iterations;
     const LinearFit found = fit_linear(problem, rounds, damping, at);
     const double size = size_of(found.step.parameters, found.step.covariance);
-    const bool is_rounding = size < largest_rounding && size > 0.5 * last_size;
-    result.is_converged = (size < end_of_steps || is_rounding) && damping <= 2 * first_damping;
+    const bool is_slow = size > slow_contraction_of_steps * last_size;
+    result.is_converged =
+        (size < end_of_steps || (size < largest_rounding && is_slow)) && damping <= 2 * first_damping;
     last_size = size;
     if (result.is_converged || result.iterations == most_linearisations) break;
     Point next = point_after(problem, at, found);
@@ -298,9 +300,13 @@ Fit fit(const FitProblem& problem, std::vector<SessionFrames> start) {
                  expected = here - cost(problem, at.rows, found.residuals, found.values, found.frames);
     const bool is_tiny = expected < negligible + negligible_share * here;
     if (there < here || is_tiny) {
-      const double gain = is_tiny ? 1 : (here - there) / expected;
-      if (gain < poor_gain) damping = std::max(damping, first_damping);
-      damping *= std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3));
+      const double gain = (here - there) / expected;
+      const bool is_poor = is_tiny ? is_slow : gain < poor_gain;
+      if (is_poor) damping = std::max(damping, first_damping);
+      if (!is_tiny)
+        damping *= std::max(1.0 / 3, 1 - std::pow(2 * gain - 1, 3));
+      else if (!is_poor)
+        damping /= 3;
       if (damping < least_damping) damping = 0;
       growth = 2;
       rounds += huber_rounds;
