@@ -31,6 +31,13 @@ double spread_of(const std::vector<Vector3>& places) {
   return median(distances);
 }
 
+/// Whether a row depends on the frame of its session.
+bool depends_on_frame(const Measurement& row) {
+  Vector3 sum = Vector3::Zero();
+  for (const FeaturePlace& place : row.places) sum += place.weight;
+  return row.places.empty() || sum.norm() > 1e-6;
+}
+
 }  // namespace
 
 void check_sessions(const Measurements& measurements) {
@@ -40,6 +47,7 @@ void check_sessions(const Measurements& measurements) {
     const Session& session = measurements.sessions[s];
     std::size_t numbers = 0;
     double spread = 0;
+    bool has_frame = false;
     const Measurement* first = nullptr;
     for (const Measurement& row : measurements.rows) {
       if (row.session != s) continue;
@@ -47,9 +55,11 @@ void check_sessions(const Measurements& measurements) {
                  : session.kind == MeasurementKind::tracker_point ? 3
                                                                   : 1;
       if (first == nullptr) first = &row;
+      has_frame = has_frame || depends_on_frame(row);
       spread = std::max(spread, (row.states[0].shown - first->states[0].shown).cwiseAbs().maxCoeff());
     }
-    const std::size_t unknowns = unknowns_of(session).size();
+    // Sizes of a coupon leave the radius of the tool unknown, not the frame.
+    const std::size_t unknowns = has_frame ? unknowns_of(session).size() : 1;
     if (first == nullptr) continue;
     if (numbers <= unknowns)
       throw InputError(

@@ -203,6 +203,39 @@ TEST_CASE("a sheet that was written is read with the rows that have a value") {
   check(other);
 }
 
+TEST_CASE("sizes alone show compliance, positions need as many values as the frame has freedoms") {
+  CutPiece piece;
+  Measurements sizes = piece.rows, places = piece.rows;
+  sizes.rows.clear();
+  places.rows.clear();
+  for (std::size_t k = 0; k < piece.coupon.quantities.size() / 2; ++k) {
+    const std::string& name = piece.coupon.quantities[k].name;
+    if (name.starts_with("width")) sizes.rows.push_back(piece.rows.rows[k]);
+    if (name.ends_with("position_mm")) places.rows.push_back(piece.rows.rows[k]);
+  }
+  // The wall of 150 N on both sides is 10 um wider than that of a machine of 30 N/um: it has 15 N/um.
+  for (Measurement& row : sizes.rows) {
+    for (std::size_t i = 0; i < row.states.size(); ++i)
+      row.states[i].F.head<3>() = 150 * row.places[i].weight.normalized();
+    row.value = 2 * 150 / 15e6;
+  }
+  sizes.rows.push_back(piece.rows.rows.back());  // the tool
+  IdentifyOptions options;
+  options.ladder = false;
+  options.sets = {ParameterSet::compliance};
+  const Identification found = identify(piece.machine, sizes, options);
+  for (const IdentifiedParameter& parameter : found.parameters)
+    if (parameter.name != "Z.compliance_m_per_N") {
+      CAPTURE(parameter.name);
+      CHECK(parameter.value == doctest::Approx(1 / 15e6).epsilon(0.01));
+    }
+  places.rows[0].at = {"s.csv", 9, 1};
+  CHECK_THROWS_WITH_AS(identify(piece.machine, places, options),
+                       "s.csv:9:1: error: session \"coupon\" has 2 measured numbers; its frames alone have 7 "
+                       "freedoms: measure more states",
+                       InputError);
+}
+
 TEST_CASE("a sheet with wrong values is refused at the row") {
   const CutPiece piece;
   const std::string sheet = coupon_sheet(piece.machine, piece.coupon, piece.rows,
