@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "statics/support/batch_support.hpp"
 
@@ -86,6 +87,25 @@ TEST_CASE("the margins of an arm with three parallel axes are zero where its Jac
     CHECK(margin.angle > 0.1 * deg);
     CHECK(margin.angle < 0.3001 * deg);
     CHECK(margin_at(model, border.at).angle < 1e-6);
+  }
+}
+
+TEST_CASE("an arm keeps its margins when a calibration moves its axes by a millimetre and a milliradian") {
+  Machine arm =
+      read_machine(read_file(COUNTERFLEX_SOURCE_DIR "/samples/robot-ur10/machine.toml"), "machine.toml");
+  const Model catalogue = prepare(arm);
+  Random random(3);
+  for (Element& element : arm.chains[0].elements)
+    if (auto* rigid = std::get_if<Rigid>(&element)) {
+      rigid->X.p += random.vector(1e-3);
+      rigid->X.R = exp_so3(random.vector(1e-3)) * rigid->X.R;
+    }
+  const Model calibrated = prepare(arm);
+  for (const std::array<double, 6>& joints : {std::array<double, 6>{10, -100, -110, -60, 2, 20},
+                                              std::array<double, 6>{10, -100, -3, -60, 70, 20}}) {
+    const ArmMargin expected = margin_at(catalogue, joints), found = margin_at(calibrated, joints);
+    CHECK(name_of(found) == name_of(expected));
+    CHECK(std::abs(found.angle - expected.angle) < 0.4 * deg);
   }
 }
 
