@@ -10,7 +10,7 @@ namespace {
 
 constexpr double identified = 0.5;  // of the prior deviation: larger ones are not identified
 constexpr double strong_correlation = 0.9;
-constexpr double least_part = 0.1;  // prior deviations: smaller changes of a free combination are not named
+constexpr double least_part = 0.3;  // of its deviation: a parameter of a free combination that changes less
 constexpr std::size_t most_outliers = 50, most_worst = 10;
 
 /// Reduced row echelon form with full pivoting: every row has a column of its own.
@@ -49,7 +49,7 @@ std::vector<FreeCombination> free_combinations(const std::vector<IdentifiedParam
   for (const auto& row : rows.rowwise()) {
     FreeCombination free;
     for (Eigen::Index k = 0; k < n; ++k)
-      if (std::abs(row[k]) > least_part)
+      if (std::abs(row[k]) * prior[k] > least_part * std::sqrt(covariance(k, k)))
         free.terms.push_back({parameters[static_cast<std::size_t>(k)].name, row[k] * prior[k]});
     if (free.terms.size() > 1) found.push_back(std::move(free));
   }

@@ -117,6 +117,22 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("two squarenesses that act alike are free together") {
+  const Machine nominal = read_machine(mill_text(), "mill.toml");
+  IdentifyOptions options;
+  options.ladder = false;
+  Measurements all;
+  read_measurements("kind,axes,squareness_um_per_m,sigma_squareness_um_per_m\nsquareness,YZ,-15,2\n", "s.csv",
+                    nominal, all);
+  const Identification found = identify(nominal, all, options);
+  // The angle between Y and Z is turned by the error of either axis; the one with the wide prior follows.
+  REQUIRE(found.free.size() == 1);
+  REQUIRE(found.free[0].terms.size() == 2);
+  CHECK(found.free[0].terms[0].name == "YZ.rx_deg");
+  CHECK(found.free[0].terms[1].name == "ZX.rx_deg");
+  CHECK(found.free[0].terms[1].change / found.free[0].terms[0].change == doctest::Approx(-1).epsilon(0.02));
+}
+
 TEST_CASE("the written machine file has the identified values, and all its other lines") {
   const std::string text = mill_text();
   const Machine nominal = read_machine(text, "mill.toml"), truth = true_mill(nominal);
