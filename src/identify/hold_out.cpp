@@ -41,9 +41,11 @@ std::vector<RowGroup> by_part(const FitProblem& problem) {
   for (std::size_t part = 0; part < parts; ++part) {
     RowGroup group{fmt::format("part {} of {}", part + 1, parts), {}, false};
     for (std::size_t i = part; i < problem.measurements.rows.size(); i += parts) group.rows.push_back(i);
-    if (group.rows.size() >= 2) groups.push_back(std::move(group));
+    // Groups that leave rows out would not be those of a jackknife.
+    if (group.rows.size() < 2) return {};
+    groups.push_back(std::move(group));
   }
-  return groups.size() < 2 ? std::vector<RowGroup>{} : groups;
+  return groups;
 }
 
 /// Slices across the direction in which the places of the tip spread most.
