@@ -12,9 +12,10 @@
 namespace counterflex {
 namespace {
 
-constexpr double inner_end = 1 - 1e-9;  // only the last piece ends a move
-constexpr double jump_length = 3;       // in allowances for rounding: shorter first pieces are jumps
-constexpr int most_refinements = 5;
+constexpr double inner_end = 1 - 1e-9;    // only the last piece ends a move
+constexpr double jump_length = 3;         // in allowances for rounding: shorter first pieces are jumps
+constexpr int most_refinements = 20;      // three suffice but at kinks of the force
+constexpr double longest_secant = 4;      // of the plain step
 constexpr double refined_enough = 1e-10;  // m
 
 double fraction_on_line(const Curve& line, const Vector3& p) {
@@ -153,13 +154,27 @@ void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& mat
 
 namespace {
 
+// An end that is searched, and what the step before was.
+struct OpenEnd {
+  std::size_t piece = 0;
+  double u = 0, step = 0;  // fractions; no step yet: 0
+};
+
+// The step to where the plain steps of a secant vanish: under a force that grows along the way each plain
+// step leaves a part of the way.
+double secant_step(const OpenEnd& last, double u, double step) {
+  if (last.step == 0 || last.step == step) return step;
+  const double secant = step * (u - last.u) / (last.step - step);
+  return secant * step > 0 && std::abs(secant) < longest_secant * std::abs(step) ? secant : step;
+}
+
 // Moves the ends of the pieces in `open` to where they put the tip; whether none has moved far.
-bool refine(const Job& job, PlaceSolver& solver, const std::vector<std::size_t>& open,
+bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
             std::vector<DraftPiece>& drafts) {
   std::vector<ForwardRequest> requests;
   std::vector<ForwardAnswer> answers(open.size());
-  for (const std::size_t i : open) {
-    const Piece& piece = drafts[i].piece;
+  for (const OpenEnd& end : open) {
+    const Piece& piece = drafts[end.piece].piece;
     const Model& model = model_of(job, job.path.segments[piece.segment]);
     ForwardRequest& request = requests.emplace_back(
         ForwardRequest{&model, piece.commanded.end, job.forces.at(piece.segment, piece.u1, Side::before)});
@@ -171,11 +186,13 @@ bool refine(const Job& job, PlaceSolver& solver, const std::vector<std::size_t>&
   if (std::ranges::any_of(answers, fails)) return true;  // found again where the pieces are solved
   double largest = 0;
   for (std::size_t k = 0; k < open.size(); ++k) {
-    Piece &piece = drafts[open[k]].piece, &next = drafts[open[k] + 1].piece;
+    Piece &piece = drafts[open[k].piece].piece, &next = drafts[open[k].piece + 1].piece;
     const Curve& wanted = job.path.segments[piece.segment].wanted;
     const Vector3 miss = answers[k].X_MT.p - point_at(wanted, piece.u1);
-    const double whole = length(wanted), step = miss.dot(direction_at(wanted, piece.u1));
-    const double u = std::clamp(piece.u1 + step / whole, 0.0, inner_end);
+    const double whole = length(wanted), step = miss.dot(direction_at(wanted, piece.u1)) / whole;
+    const double u = std::clamp(piece.u1 + secant_step(open[k], piece.u1, step), 0.0, inner_end);
+    open[k].u = piece.u1;
+    open[k].step = step;
     largest = std::max(largest, std::abs(u - piece.u1) * whole);
     piece.u1 = next.u0 = u;
   }
@@ -193,9 +210,9 @@ bool is_jump(const Job& job, const Piece& piece) {
 }  // namespace
 
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
-  std::vector<std::size_t> open;
+  std::vector<OpenEnd> open;
   for (std::size_t i = 0; i < drafts.size(); ++i)
-    if (!drafts[i].settled) open.push_back(i);
+    if (!drafts[i].settled) open.push_back({i});
   PlaceSolver solver(job);
   for (int k = 0; k < most_refinements && !open.empty(); ++k)
     if (refine(job, solver, open, drafts)) break;
