@@ -70,17 +70,24 @@ bool has_directions(const Measurements& measurements) {
 }  // namespace
 
 Candidates candidates(const Machine& machine, const Measurements& measurements,
-                      const std::vector<ParameterSet>& sets) {
+                      const std::vector<ParameterSet>& sets, const PriorCovariance& earlier) {
   Candidates result;
   const std::vector<Parameter> all = parameters(machine);
   const std::vector<bool> zeros = zeros_of(machine);
   std::vector<double> before, prior, least;
+  std::vector<std::pair<Eigen::Index, Eigen::Index>> known_before;  // here, in `earlier`
   const bool shows_reversal = has_directions(measurements);
   for (std::size_t i = 0; i < all.size(); ++i) {
     if (all[i].kind == ParameterKind::reversal && !shows_reversal) continue;
     const ParameterSet set = set_of(all[i], zeros[i]);
     if (!is_in(set, sets)) continue;
-    const PriorDeviation known = prior_deviation(machine, all[i]);
+    PriorDeviation known = prior_deviation(machine, all[i]);
+    if (const auto at = std::find(earlier.names.begin(), earlier.names.end(), all[i].name);
+        at != earlier.names.end()) {
+      const Eigen::Index row = at - earlier.names.begin();
+      known = {std::sqrt(earlier.covariance(row, row)), false};
+      known_before.emplace_back(static_cast<Eigen::Index>(before.size()), row);
+    }
     if (!known.is_default && known.sigma == 0) continue;
     result.varied.push_back(i);
     result.set.push_back(set);
@@ -95,6 +102,11 @@ Candidates candidates(const Machine& machine, const Measurements& measurements,
   result.before = Eigen::Map<Eigen::VectorXd>(before.data(), n);
   result.prior = Eigen::Map<Eigen::VectorXd>(prior.data(), n);
   result.least = Eigen::Map<Eigen::VectorXd>(least.data(), n);
+  result.correlation = Eigen::MatrixXd::Identity(n, n);
+  for (const auto& [i, row] : known_before)
+    for (const auto& [j, column] : known_before)
+      if (i != j)
+        result.correlation(i, j) = earlier.covariance(row, column) / (result.prior[i] * result.prior[j]);
   return result;
 }
 

@@ -11,12 +11,13 @@ struct Candidates {
   std::vector<ParameterSet> set;         ///< by varied parameter: the first that has it
   std::vector<bool> is_default;          ///< the machine file states no standard deviation
   Eigen::VectorXd before, prior, least;  ///< values of the file, standard deviations, lower bounds (SI)
+  Eigen::MatrixXd correlation;           ///< of what is known before
 };
 
-/// The parameters of the sets, without those whose standard deviation is zero, and without reversals if no
-/// row has a direction of motion.
+/// The parameters of the sets, with the deviations of `earlier` or of the machine file, without those whose
+/// standard deviation is zero, and without reversals if no row has a direction of motion.
 Candidates candidates(const Machine& machine, const Measurements& measurements,
-                      const std::vector<ParameterSet>& sets);
+                      const std::vector<ParameterSet>& sets, const PriorCovariance& earlier);
 
 /// Prior deviations of the candidates whose sets are in `sets`, 0 for the others.
 Eigen::VectorXd prior_of(const Candidates& candidates, const std::vector<ParameterSet>& sets);

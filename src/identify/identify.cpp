@@ -1,5 +1,7 @@
 #include "counterflex/identify/identify.hpp"
 
+#include <Eigen/Cholesky>
+
 #include "identify/candidates.hpp"
 #include "identify/checks.hpp"
 #include "identify/fit/fit.hpp"
@@ -31,17 +33,25 @@ std::vector<SessionFrames> first_frames(const FitProblem& problem, const std::ve
 
 }  // namespace
 
+bool is_covariance(const Eigen::MatrixXd& matrix) {
+  const Eigen::VectorXd variances = matrix.diagonal();
+  if (!(variances.array() > 0).all() || !matrix.isApprox(matrix.transpose(), 1e-9)) return false;
+  const Eigen::VectorXd scale = variances.cwiseSqrt().cwiseInverse();
+  const Eigen::LLT<Eigen::MatrixXd> factor(scale.asDiagonal() * matrix * scale.asDiagonal());
+  return factor.info() == Eigen::Success;
+}
+
 Identification identify(const Machine& machine, const Measurements& measurements,
                         const IdentifyOptions& options) {
   check_sessions(measurements);
   const States states = nominal_states(machine, measurements, options.threads);
-  const Candidates candidate = candidates(machine, measurements, options.sets);
+  const Candidates candidate = candidates(machine, measurements, options.sets, options.prior);
   if (candidate.varied.empty())
     throw InputError(ErrorKind::machine_or_force, {},
                      "the machine file has no parameter of the sets to fit; add error slots or compliances");
-  const FitProblem problem{machine,         measurements,     states,
-                           states.X_MT,     candidate.varied, candidate.before,
-                           candidate.prior, candidate.least,  options.threads};
+  const FitProblem problem{
+      machine,          measurements,    states,          states.X_MT,           candidate.varied,
+      candidate.before, candidate.prior, candidate.least, candidate.correlation, options.threads};
   std::vector<Configuration> loaded;
   const std::vector<SessionFrames> frames =
       first_frames(problem, responses(machine, candidate.varied, states, options.threads, loaded));

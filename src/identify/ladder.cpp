@@ -56,7 +56,8 @@ FitStep Ladder::trained(const std::vector<ParameterSet>& sets, std::size_t group
     if (prior[k] == 0) back[k] = problem_.before[k] - all_.values[k];
   NormalMatrices normal = training_[group];
   move(back, normal);
-  FitStep step = solve(normal, unknowns_of(problem_, all_.frames), all_.values - problem_.before, prior);
+  FitStep step = solve(normal, unknowns_of(problem_, all_.frames), all_.values - problem_.before,
+                       {prior, problem_.correlation});
   step.parameters += back;
   return step;
 }

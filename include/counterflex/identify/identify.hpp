@@ -27,11 +27,21 @@ enum class HoldOut {
   fifth,      ///< each fifth of the rows in turn
 };
 
+/// What an earlier fit knows of parameters (SI).
+struct PriorCovariance {
+  std::vector<std::string> names;
+  Eigen::MatrixXd covariance;
+};
+
+/// Symmetric, and positive definite in units of its own deviations.
+bool is_covariance(const Eigen::MatrixXd& matrix);
+
 struct IdentifyOptions {
   std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance,
                                     ParameterSet::reversal};
   HoldOut hold_out = HoldOut::automatic;
-  bool ladder = true;  ///< a set stays only where held-out rows improve
+  bool ladder = true;       ///< a set stays only where held-out rows improve
+  PriorCovariance prior{};  ///< in place of the machine file's deviations of its parameters
   int threads = 1;
 };
 

@@ -91,7 +91,8 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
                     page = options.report ? *options.report + ".html" : "";
   std::vector<std::string> inputs = options.identify.data;
   inputs.push_back(options.machine);
-  if (!options.identify.program.empty()) inputs.push_back(options.identify.program);
+  for (const std::string& more : {options.identify.program, options.identify.prior})
+    if (!more.empty()) inputs.push_back(more);
   check_machine_output(output, inputs, options.force_overwrite);
   for (const std::string& input : inputs)
     for (const std::string& file : {report, page})
@@ -100,6 +101,8 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   if (!options.force_overwrite)
     refuse_foreign({marked_file(report, report_mark), marked_file(page, page_mark)});
   const MachineInput input = read_machine_input(options);
+  if (const std::string& prior = options.identify.prior; !prior.empty())
+    wanted.prior = read_covariance(read_file(prior), prior, input.machine);
   Measurements measurements;
   for (const std::string& file : options.identify.data) load_measurements(file, input.machine, measurements);
   if (measurements.empty_rows > 0)

@@ -343,6 +343,9 @@ void add_identify(CLI::App& app, Options& options) {
       command, "--hold-out", "session|region|20%",
       "Which rows test fits that are made without them (default: sessions if there are several, else 20%)",
       [&](const std::string& text) { options.identify.hold_out = text; });
+  value_option(command, "--prior", "STEM.json",
+               "The covariance of the fit that wrote the machine file, as its --report gave it",
+               [&](const std::string& text) { options.identify.prior = text; });
   command.add_flag("--all", options.identify.all, "Keep what does not improve the rows held out, too");
   value_option(command, "--for", "PROGRAM",
                "Name the three next measurements that make the deviations of this program more certain",

@@ -96,6 +96,7 @@ struct IdentifyOptionTexts {
   std::optional<std::string> fit;       ///< "zeros,geometry"
   std::optional<std::string> hold_out;  ///< "session", "region" or "20%"
   bool all = false;                     ///< keep sets that do not improve held-out rows
+  std::string prior;                    ///< file of an earlier covariance; or empty
   std::string program;                  ///< whose deviations are to be known better; or empty
 };
 

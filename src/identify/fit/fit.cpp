@@ -135,7 +135,7 @@ FitStep bounded_step(const FitProblem& problem, const Point& at, double damping)
       at.rows, sessions, at.values.size(), [](std::size_t) { return true; }, problem.threads);
   Eigen::VectorXd prior = problem.prior;
   for (;;) {
-    FitStep step = solve(normal, sessions, at.values - problem.before, prior, damping);
+    FitStep step = solve(normal, sessions, at.values - problem.before, {prior, problem.correlation}, damping);
     bool changed = false;
     for (Eigen::Index k = 0; k < prior.size(); ++k)
       if (prior[k] > 0 && at.values[k] + step.parameters[k] < problem.least[k]) {
@@ -209,8 +209,10 @@ double cost(const FitProblem& problem, const std::vector<LinearRow>& rows,
     const double u = rows[i].at.is_found ? ratio(rows[i], residuals[i]) : tukey;
     sum += rows[i].weight * u * u * std::max(1.0, static_cast<double>(residuals[i].size()));
   }
+  Eigen::VectorXd from_prior = values - problem.before;
   for (Eigen::Index k = 0; k < values.size(); ++k)
-    if (problem.prior[k] > 0) sum += std::pow((values[k] - problem.before[k]) / problem.prior[k], 2);
+    from_prior[k] = problem.prior[k] > 0 ? from_prior[k] / problem.prior[k] : 0;
+  sum += from_prior.dot(ParameterPrior{problem.prior, problem.correlation}.information() * from_prior);
   for (const SessionUnknowns& session : unknowns_of(problem, frames))
     sum += session.from_prior.cwiseAbs2().dot(session.information);
   return sum;

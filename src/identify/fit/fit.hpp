@@ -13,6 +13,7 @@ struct FitProblem {
   std::vector<std::size_t> varied;  ///< indices into `parameters(machine)`
   Eigen::VectorXd before, prior;    ///< of the varied: values of the machine file, standard deviations (SI)
   Eigen::VectorXd least;            ///< lower bounds (SI)
+  Eigen::MatrixXd correlation;      ///< of what is known before
   int threads = 1;
 };
 

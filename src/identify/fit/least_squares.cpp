@@ -121,8 +121,20 @@ SessionStep solve_session(const Eigen::MatrixXd& normal, const SessionUnknowns& 
   return eliminate(with_prior(normal, unknowns), unknowns, 0);
 }
 
+Eigen::MatrixXd ParameterPrior::information() const {
+  std::vector<Eigen::Index> free;
+  for (Eigen::Index k = 0; k < sigma.size(); ++k)
+    if (sigma[k] > 0) free.push_back(k);
+  const Eigen::MatrixXd among = correlation(free, free);
+  Eigen::MatrixXd result = Eigen::MatrixXd::Identity(sigma.size(), sigma.size());
+  const Eigen::MatrixXd inverse = among.llt().solve(Eigen::MatrixXd::Identity(among.rows(), among.cols()));
+  result(free, free) = inverse;
+  return result;
+}
+
 FitStep solve(const NormalMatrices& normal, const std::vector<SessionUnknowns>& sessions,
-              const Eigen::VectorXd& from_prior, const Eigen::VectorXd& prior, double damping) {
+              const Eigen::VectorXd& from_prior, const ParameterPrior& known, double damping) {
+  const Eigen::VectorXd& prior = known.sigma;
   const Eigen::Index n = prior.size();
   FitStep step;
   Eigen::MatrixXd all = Eigen::MatrixXd::Zero(n, n + 1);  // of the parameters in prior deviations
@@ -139,16 +151,16 @@ FitStep solve(const NormalMatrices& normal, const std::vector<SessionUnknowns>& 
       all.col(n) -= N.block(k, u, n, 1) * step.sessions[s].step[of];
     }
   }
-  for (Eigen::Index i = 0; i < n; ++i) {
-    all(i, i) += 1 + damping;
-    if (prior[i] > 0) all(i, n) -= from_prior[i] / prior[i];
-  }
-  // No eigenvalue is below 1, that of a direction that no row determines.
+  const Eigen::VectorXd to_scaled = prior.unaryExpr([](double p) { return p > 0 ? 1 / p : 0.0; });
+  const Eigen::MatrixXd information = known.information();
+  all.leftCols(n) += information;
+  all.diagonal().array() += damping;
+  all.col(n) -= information * from_prior.cwiseProduct(to_scaled);
+  // No eigenvalue is below the least of the prior's information, that of a direction that no row determines.
   const Eigen::LLT<Eigen::MatrixXd> factor(all.leftCols(n));
   const Eigen::VectorXd scaled = factor.solve(all.col(n));
   step.parameters = scaled.cwiseProduct(prior);
   step.covariance = prior.asDiagonal() * factor.solve(Eigen::MatrixXd::Identity(n, n)) * prior.asDiagonal();
-  const Eigen::VectorXd to_scaled = prior.unaryExpr([](double p) { return p > 0 ? 1 / p : 0.0; });
   for (SessionStep& session : step.sessions) {
     session.step += session.by_parameters * scaled;
     session.by_parameters = session.by_parameters * to_scaled.asDiagonal();

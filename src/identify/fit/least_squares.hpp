@@ -32,6 +32,16 @@ struct SessionStep {
   Eigen::Matrix<double, session_unknowns, session_unknowns> covariance;
 };
 
+/// What is known of the parameters without rows.
+struct ParameterPrior {
+  Eigen::VectorXd sigma;        ///< standard deviations (SI); 0 holds a parameter
+  Eigen::MatrixXd correlation;  ///< the others are known as if nothing were known of held ones
+
+  /// Of the parameters in their deviations: the inverse correlation of those that are not held; 1 for the
+  /// others.
+  Eigen::MatrixXd information() const;
+};
+
 /// A step of the parameters (scaled to their prior deviations inside) and of every session's unknowns.
 struct FitStep {
   Eigen::VectorXd parameters;
@@ -50,12 +60,12 @@ NormalMatrices normal_matrices(const std::vector<LinearRow>& rows,
 /// Those of the rows after a step of the parameters.
 void move(const Eigen::VectorXd& parameters, NormalMatrices& normal);
 
-/// Minimises sum |r + J_p dp + J_s ds|^2 + sum ((from_prior + dp) / prior)^2, and the same of the sessions'
-/// unknowns. `prior` are standard deviations; 0 holds a parameter: its step is zero. Unknowns that no row
-/// determines keep their values. `damping` adds this many times the information of the priors to the normal
-/// matrix, as Levenberg and Marquardt add to its diagonal: steps become short in prior deviations.
+/// Minimises sum |r + J_p dp + J_s ds|^2 + (from_prior + dp)^T C^-1 (from_prior + dp), C the covariance of
+/// the prior, and the same of the sessions' unknowns. The step of a held parameter is zero. Unknowns that no
+/// row determines keep their values. `damping` adds this many times the information of the priors to the
+/// normal matrix, as Levenberg and Marquardt add to its diagonal: steps become short in prior deviations.
 FitStep solve(const NormalMatrices& normal, const std::vector<SessionUnknowns>& sessions,
-              const Eigen::VectorXd& from_prior, const Eigen::VectorXd& prior, double damping = 0);
+              const Eigen::VectorXd& from_prior, const ParameterPrior& known, double damping = 0);
 
 /// The step of one session's unknowns from its normal matrix, parameters held.
 SessionStep solve_session(const Eigen::MatrixXd& normal, const SessionUnknowns& unknowns);

@@ -172,9 +172,9 @@ std::string backlash(const Machine& machine) {
 std::vector<std::string> not_modelled(const Machine& machine) {
   return {backlash(machine),
           machine.temperature
-              ? "heat: what it does beside the shift of [thermal]"
+              ? "heat beside [thermal]: differences of temperature within the machine"
               : "heat: growth of spindle and frame, from the first part of the day to the last",
-          machine.fixture ? "part and fixture: what they do beside the stiffness of [fixture]"
+          machine.fixture ? "part and fixture beside [fixture]: places that are softer, clamping"
                           : "part and fixture: their bending and clamping",
           "dynamics: following error, rounded corners, chatter",
           turns_joints(machine)
