@@ -76,7 +76,7 @@ SessionStep eliminate(const Eigen::MatrixXd& N, const SessionUnknowns& unknowns,
   for (Eigen::Index u = 0; u < k; ++u) {
     const int to = unknowns.unknowns[static_cast<std::size_t>(u)];
     result.step[to] = X(u, n);
-    result.by_parameters.row(to) = -X.row(u).head(n);
+    if (n > 0) result.by_parameters.row(to) = -X.row(u).head(n);
     for (Eigen::Index v = 0; v < k; ++v)
       result.covariance(to, unknowns.unknowns[static_cast<std::size_t>(v)]) = X(u, n + 1 + v);
   }
