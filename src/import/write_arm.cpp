@@ -117,10 +117,11 @@ std::string head_text(const SerialArm& arm, const ArmHome& home) {
   const bool weighs =
       std::any_of(arm.joints.begin(), arm.joints.end(), [](const auto& joint) { return joint.mass; });
   if (weighs)
-    text +=
+    text += fmt::format(
         "gravity_m_s2 = [0, 0, -9.81]            # PLACEHOLDER: for a base on the floor\n"
-        "gravity_reference = \"home\"              # PLACEHOLDER: the robot was calibrated under its own "
-        "weight\n";
+        "{}gravity_reference = \"home\"              # PLACEHOLDER: the robot was calibrated under its "
+        "own weight\n",
+        names.empty() ? "# when controlled has components: " : "");
   else
     text += "# PLACEHOLDER: masses: " + arm.mass_comment + "\n";
   return text;

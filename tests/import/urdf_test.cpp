@@ -195,6 +195,22 @@ TEST_CASE("a URDF robot without a name is named by its file, and equal names of 
   CHECK(mass_named(machine, "a_b_2") != nullptr);
 }
 
+TEST_CASE("an arm with masses whose controlled components are not known can be read") {
+  std::string text = "<robot name=\"snake\"><link name=\"l0\"/>";
+  for (int i = 1; i <= 7; ++i)
+    text += "<joint name=\"j" + std::to_string(i) + "\" type=\"continuous\"><parent link=\"l" +
+            std::to_string(i - 1) + "\"/><child link=\"l" + std::to_string(i) +
+            "\"/><origin xyz=\"0.1 0 0\"/><axis xyz=\"0 0 1\"/></joint><link name=\"l" + std::to_string(i) +
+            "\"><inertial><mass value=\"2\"/><inertia ixx=\"1\" ixy=\"0\" ixz=\"0\" iyy=\"1\" iyz=\"0\" "
+            "izz=\"1\"/></inertial></link>";
+  const std::string file = import_urdf(text + "</robot>", "snake.urdf", "", "");
+  const Machine machine = read_machine(file, "m.toml");
+  CHECK(machine.controlled.empty());
+  CHECK(total_mass(machine) == doctest::Approx(14));
+  CHECK_FALSE(machine.gravity.true_at_home);
+  CHECK(file.find("# when controlled has components: gravity_reference = \"home\"") != file.npos);
+}
+
 TEST_CASE("base and tip of a URDF may be left out if there is one end") {
   std::string chain = arm;
   for (const char* name : {"camera", "rod", "loose", "eye", "piston", "chip"}) {
