@@ -232,6 +232,20 @@ TEST_CASE("base and tip of a URDF may be left out if there is one end") {
 }
 
 TEST_CASE("bad URDF files are refused at their place, and the library prints nothing") {
+  CHECK(
+      message_of(
+          "<robot name=\"r\">\n<link name=\"a\"/><link name=\"b\"/><link name=\"c\"/><link name=\"d\"/>\n"
+          "<joint name=\"1\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\n"
+          "<joint name=\"2\" type=\"fixed\"><parent link=\"c\"/><child link=\"d\"/></joint>\n"
+          "<joint name=\"3\" type=\"fixed\"><parent link=\"d\"/><child link=\"c\"/></joint>\n</robot>",
+          "", "d") ==
+      "arm.urdf:4:1: error: the links above the joint 2 form a loop; the joints of a robot must form a tree");
+  CHECK(
+      message_of("<robot name=\"r\">\n<link name=\"a\"/><link name=\"b\"/>\n"
+                 "<joint name=\"1\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\n"
+                 "<joint name=\"2\" type=\"fixed\"><parent link=\"a\"/><child link=\"b\"/></joint>\n</robot>",
+                 "", "b") ==
+      "arm.urdf:4:1: error: the link b is the child of two joints; the joints of a robot must form a tree");
   CHECK(message_of("<robot name=\"r\">\n  <link name=\"a\"\n</robot>")
             .starts_with("arm.urdf:3:1: error: not XML: "));
   CHECK(message_of("") == "arm.urdf:1:1: error: not XML: Error document empty.");

@@ -153,6 +153,36 @@ Location place_named_in(const std::string& message, const UrdfText& urdf) {
   return named == nullptr ? urdf.robot() : urdf.place(*named);
 }
 
+/// The link that a joint names in an element; empty if it names none, which the library refuses.
+std::string link_of(const TiXmlElement& joint, const char* element) {
+  const TiXmlElement* found = joint.FirstChildElement(element);
+  const char* name = found == nullptr ? nullptr : found->Attribute("link");
+  return name == nullptr ? "" : name;
+}
+
+/// Throws where the joints do not form a tree. (The library would keep links of a loop for ever.)
+void refuse_loops(const UrdfText& urdf) {
+  std::map<std::string, std::string> parent_of;
+  for (const auto& [name, joint] : urdf.joints) {
+    const std::string child = link_of(*joint, "child");
+    if (!child.empty() && !parent_of.emplace(child, link_of(*joint, "parent")).second)
+      fail(urdf.place(*joint),
+           fmt::format("the link {} is the child of two joints; the joints of a robot must "
+                       "form a tree",
+                       without_controls(child)));
+  }
+  for (const auto& [name, joint] : urdf.joints) {
+    std::size_t steps = 0;
+    for (auto at = parent_of.find(link_of(*joint, "child")); at != parent_of.end();
+         at = parent_of.find(at->second))
+      if (++steps > parent_of.size())
+        fail(urdf.place(*joint),
+             fmt::format("the links above the joint {} form a loop; the joints of a robot "
+                         "must form a tree",
+                         without_controls(name)));
+  }
+}
+
 }  // namespace
 
 Location UrdfText::robot() const {
@@ -176,6 +206,7 @@ void read_urdf_text(std::string_view text, const std::string& file, UrdfText& ur
                                          without_controls(robot->Value())));
   keep_kinematics(*robot);
   collect(urdf, *robot);
+  refuse_loops(urdf);
 }
 
 urdf::ModelInterfaceSharedPtr parse_urdf(const UrdfText& urdf) {
