@@ -70,7 +70,7 @@ bool has_directions(const Measurements& measurements) {
 }  // namespace
 
 Candidates candidates(const Machine& machine, const Measurements& measurements,
-                      const std::vector<ParameterSet>& sets, const PriorCovariance& earlier) {
+                      const std::vector<ParameterSet>& sets, const KnownParameters& earlier) {
   Candidates result;
   const std::vector<Parameter> all = parameters(machine);
   const std::vector<bool> zeros = zeros_of(machine);

@@ -17,7 +17,7 @@ struct Candidates {
 /// The parameters of the sets, with the deviations of `earlier` or of the machine file, without those whose
 /// standard deviation is zero, and without reversals if no row has a direction of motion.
 Candidates candidates(const Machine& machine, const Measurements& measurements,
-                      const std::vector<ParameterSet>& sets, const PriorCovariance& earlier);
+                      const std::vector<ParameterSet>& sets, const KnownParameters& earlier);
 
 /// Prior deviations of the candidates whose sets are in `sets`, 0 for the others.
 Eigen::VectorXd prior_of(const Candidates& candidates, const std::vector<ParameterSet>& sets);

@@ -83,19 +83,19 @@ TEST_CASE("a fit after a fit, with its covariance, is the fit of all rows") {
   IdentifyOptions options = geometry_of();
   const Identification joint = identify(nominal, sessions.both, options);
   const Identification first = identify(nominal, sessions.first, options);
-  const auto second_with = [&](const PriorCovariance& prior) {
+  const auto second_with = [&](const KnownParameters& prior) {
     options.prior = prior;
     return identify(first.machine, sessions.second, options);
   };
-  const PriorCovariance prior = read_covariance(to_json(first), "first.json", first.machine);
+  const KnownParameters prior = read_covariance(to_json(first), "first.json", first.machine);
   const Identification second = second_with(prior);
   CHECK(difference_of(second, joint) < 0.1);
-  PriorCovariance deviations_alone = prior;
+  KnownParameters deviations_alone = prior;
   deviations_alone.covariance = Eigen::MatrixXd(prior.covariance.diagonal().asDiagonal());
   CHECK(difference_of(second_with(deviations_alone), joint) > 0.2);
 }
 
-TEST_CASE("a covariance of another machine file, and what is none, is refused") {
+TEST_CASE("a covariance of another machine file is refused, and a matrix that cannot be a covariance") {
   const Machine nominal = mill_of_fits();
   const Identification found = identify(nominal, sessions_of(nominal).first, geometry_of());
   const nlohmann::json whole = nlohmann::json::parse(to_json(found));

@@ -27,12 +27,6 @@ enum class HoldOut {
   fifth,      ///< each fifth of the rows in turn
 };
 
-/// What an earlier fit knows of parameters (SI).
-struct PriorCovariance {
-  std::vector<std::string> names;
-  Eigen::MatrixXd covariance;
-};
-
 /// Symmetric, and positive definite in units of its own deviations.
 bool is_covariance(const Eigen::MatrixXd& matrix);
 
@@ -40,8 +34,9 @@ struct IdentifyOptions {
   std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance,
                                     ParameterSet::reversal};
   HoldOut hold_out = HoldOut::automatic;
-  bool ladder = true;       ///< a set stays only where held-out rows improve
-  PriorCovariance prior{};  ///< in place of the machine file's deviations of its parameters
+  bool ladder = true;  ///< a set stays only where held-out rows improve
+  KnownParameters
+      prior{};  ///< of an earlier fit, in place of the machine file's deviations of its parameters
   int threads = 1;
 };
 

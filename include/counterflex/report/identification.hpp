@@ -17,7 +17,7 @@ std::string to_json(const Identification& found);
 /// The covariance of such a document, for the fit of other measurements. Throws `InputError`
 /// (ErrorKind::machine_or_force) unless `machine` has its parameters with its values, and the matrix is a
 /// covariance.
-PriorCovariance read_covariance(std::string_view text, const std::string& file, const Machine& machine);
+KnownParameters read_covariance(std::string_view text, const std::string& file, const Machine& machine);
 
 /// One HTML file that needs nothing but itself. `machine`: its name; `files`: the measurements.
 std::string identification_page(const Identification& found, std::string_view machine,

@@ -29,7 +29,7 @@ const Parameter& parameter_named(const std::vector<Parameter>& all, const std::s
 
 }  // namespace
 
-PriorCovariance read_covariance(std::string_view text, const std::string& file, const Machine& machine) {
+KnownParameters read_covariance(std::string_view text, const std::string& file, const Machine& machine) {
   const Json document = parse_json(text, text, 0, file);
   const JsonSource source{document, file};
   if (source.text("/schema") != schema)
@@ -42,7 +42,7 @@ PriorCovariance read_covariance(std::string_view text, const std::string& file, 
     fail(file, "the document needs parameters, and a covariance with one row for each of them");
   const std::vector<Parameter> all = parameters(machine);
   const auto n = static_cast<Eigen::Index>(listed->size());
-  PriorCovariance prior;
+  KnownParameters prior;
   prior.covariance.resize(n, n);
   std::vector<double> units;
   for (Eigen::Index i = 0; i < n; ++i) {
