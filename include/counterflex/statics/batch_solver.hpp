@@ -40,7 +40,7 @@ struct BatchAnswer {
   bool solved = false;
   Pose command;         ///< commanded pose of the nominal tip; its position where the question is forward
   Pose X_MT;            ///< of the real tip
-  Eigen::VectorXd rho;  ///< forward: actuators of the command (m, rad)
+  Eigen::VectorXd rho;  ///< forward: actuators of the command (m, rad), where they were not given
   int iterations = 0;   ///< Newton steps
 };
 

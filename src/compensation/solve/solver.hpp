@@ -49,7 +49,7 @@ struct ForwardAnswer {
   Status status = Status::not_converged;
   Pose X_MT;
   int iterations = 0;
-  Eigen::VectorXd rho;  ///< actuators of the command (m, rad)
+  Eigen::VectorXd rho;  ///< actuators of the command (m, rad), where they were not given
 };
 
 /// The wanted pose of the tip at a position. Its controlled orientation is the program's or else home's,

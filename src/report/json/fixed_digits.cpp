@@ -14,17 +14,18 @@ void append_fixed(std::string& text, double value, int decimals) {
     text += format_fixed(value, decimals);
     return;
   }
-  if (*whole < 0) text += '-';
   const auto digits = static_cast<std::int64_t>(std::abs(*whole));
   const auto power = static_cast<std::int64_t>(small_powers_of_ten[static_cast<std::size_t>(decimals)]);
-  char buffer[24];
-  const char* end = std::to_chars(buffer, buffer + sizeof buffer, digits / power).ptr;
-  text.append(buffer, static_cast<std::size_t>(end - buffer));
-  if (decimals == 0) return;
-  // A leading one keeps the zeros after the point.
-  end = std::to_chars(buffer, buffer + sizeof buffer, power + digits % power).ptr;
-  buffer[0] = '.';
-  text.append(buffer, static_cast<std::size_t>(end - buffer));
+  char buffer[48] = "-";
+  char* point = std::to_chars(buffer + 1, buffer + sizeof buffer, digits / power).ptr;
+  char* end = point;
+  if (decimals > 0) {
+    // A leading one keeps the zeros after the point.
+    end = std::to_chars(point, buffer + sizeof buffer, power + digits % power).ptr;
+    *point = '.';
+  }
+  const char* begin = *whole < 0 ? buffer : buffer + 1;
+  text.append(begin, static_cast<std::size_t>(end - begin));
 }
 
 }  // namespace counterflex

@@ -187,7 +187,7 @@ struct BatchSolver::Impl {
       if (is_forward) answer.command.p = requests[asked[i]].at.p;
       answer.X_MT = pose_of(&batch.tips[12 * i]);
       answer.iterations = batch.iterations[i];
-      if (is_forward) answer.rho = batch.rho_of(i);
+      if (is_forward && problem.nominal) answer.rho = batch.rho_of(i);
     }
   }
 };
