@@ -33,10 +33,12 @@ struct StartCell {
   bool only_translates = false;  ///< the platform does not turn with the position, to 1e-11 rad in the cell
 
   // Of a target's cell:
-  std::vector<double> stress;      ///< by element, six numbers: at the centre
-  Polynomials stress_changes;      ///< by element a block: first-order terms alone
-  std::vector<double> pivots;      ///< at the centre without a load, actuators held
-  double contraction = 1;          ///< the second step over the first one, with the tangent of this start
+  std::vector<double> stress;  ///< by element, six numbers: at the centre
+  Polynomials stress_changes;  ///< by element a block: first-order terms alone
+  std::vector<double> pivots;  ///< at the centre without a load, actuators held
+  /// The second step over the first one, with the tangent of this start: under a load of `load_of_cells` in
+  /// its worst direction, and without a load.
+  double contraction = 1, unloaded_contraction = 1;
   std::array<double, 6> offset{};  ///< from the tip to the command: position (m), rotation vector (rad)
   Polynomials offset_changes;      ///< all terms
   OffsetBounds bounds{};

@@ -96,13 +96,13 @@ Solved<T> iterate(const Schedule& schedule, Mask<T> active, const T& contraction
     const T size = first.step.size;
     is_small = size <= step_tolerance;
     // By the contraction that was seen the next step is small.
-    const Mask<T> predicted = size * size <= predicted_tolerance * last;
+    const Mask<T> predicted = size * size <= step_tolerance * last;
     if (has_tangent<T>(schedule, k))
       is_small = is_small | predicted;
     else if (is_exact)
       is_small = is_small | (predicted & (size <= small_chord));
     if (k == 0)
-      is_small = is_small | (size * (contraction + size * (1 / first.machine.length)) <= predicted_tolerance);
+      is_small = is_small | (size * (contraction + size * (1 / first.machine.length)) <= step_tolerance);
     if (k == 1) solved.contraction = select<T>(active, size / larger(last, all<T>(1e-300)), T{});
     last = size;
     coupled.for_each([&](Work<T>& work) { take_step<T>(active, work); });

@@ -6,16 +6,19 @@
 
 namespace counterflex::kernel {
 
+/// A joint that slides needs no cosine and sine.
 template <class T>
-COUNTERFLEX_INLINE void put_joint(int l, double q, JointState<T>& joint) {
+COUNTERFLEX_INLINE void put_joint(int l, double q, bool turns, JointState<T>& joint) {
   lane(joint.q, l) = q;
+  if (!turns) return;
   lane(joint.cosine, l) = std::cos(q);
   lane(joint.sine, l) = std::sin(q);
 }
 
 template <class T>
 void put_state(const FlatMachine& machine, int l, const double* numbers, Work<T>& work) {
-  for (int j = 0; j < machine.joints; ++j, ++numbers) put_joint(l, *numbers, at(work.state.joints, j));
+  for (int j = 0; j < machine.joints; ++j, ++numbers)
+    put_joint(l, *numbers, at(machine.joint_turns, j) != 0, at(work.state.joints, j));
   const auto put = [&](Frame<T>& X) {
     for (int i = 0; i < 9; ++i) lane(X.R.c[i], l) = *numbers++;
     for (int i = 0; i < 3; ++i) lane(X.p[i], l) = *numbers++ - lane(work.origin[i], l);
@@ -80,7 +83,9 @@ double actuator_offset(int a, int l, const Work<T>& work) {
 
 template <class T>
 void put_actuator(int a, int l, double rho, Work<T>& work) {
-  put_joint(l, rho + actuator_offset(a, l, work), at(work.state.joints, at(work.machine.actuator_joint, a)));
+  const int j = at(work.machine.actuator_joint, a);
+  put_joint(l, rho + actuator_offset(a, l, work), at(work.machine.joint_turns, j) != 0,
+            at(work.state.joints, j));
 }
 
 template <class T>
@@ -201,7 +206,7 @@ Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedul
     if (k > 0 && phases[k].real) copy_actuators(coupled.nominal, coupled.real);
     if (k > 0 && phases[k].nominal) copy_actuators(coupled.real, coupled.nominal);
     const T contraction = phases[k].real && batch.cells != nullptr
-                              ? contraction_of_cells<T>(batch, first)
+                              ? contraction_of_cells<T>(batch, first, coupled.real)
                               : all<T>(std::numeric_limits<double>::infinity());
     const Solved<T> here =
         iterate<T>(schedule, solved.accepted, contraction, coupled, [&](const Mask<T>& active) {

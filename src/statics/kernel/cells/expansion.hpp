@@ -67,9 +67,12 @@ struct Block {
 
 /// Polynomials in blocks of six, of the same terms.
 struct Polynomials {
-  std::vector<Term> terms;           ///< by number
+  std::vector<Term> terms;           ///< of a start: those without a load first
   std::vector<double> coefficients;  ///< by block and term, six numbers
 
+  std::size_t unloaded = 0;  ///< the number of terms before the first with a load
+
+  std::size_t count(bool is_loaded) const { return is_loaded ? terms.size() : unloaded; }
   double coefficient(int block_number, std::size_t term, int row) const {
     return coefficients[block * (static_cast<std::size_t>(block_number) * terms.size() + term) +
                         static_cast<std::size_t>(row)];

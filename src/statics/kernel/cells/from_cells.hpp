@@ -16,26 +16,28 @@ COUNTERFLEX_INLINE void for_each_cell(const Batch& batch, int first, const Start
   }
 }
 
-/// The terms of polynomials at a point.
+/// The terms of polynomials at a point. Those with a load are left out where no lane has one: they are zero.
 template <class T>
 struct TermValues {
   T value[most_terms];
+  bool is_loaded;
 };
 
 template <class T>
-COUNTERFLEX_INLINE void fill(const Polynomials& polynomials, const Point<T>& x, TermValues<T>& values) {
-  T* value = values.value;
-  for (const Term& term : polynomials.terms) *value++ = x.value_of(term);
+COUNTERFLEX_INLINE void fill(const Polynomials& polynomials, const Point<T>& x, bool is_loaded,
+                             TermValues<T>& values) {
+  values.is_loaded = is_loaded;
+  for (std::size_t k = 0; k < polynomials.count(is_loaded); ++k)
+    values.value[k] = x.value_of(polynomials.terms[k]);
 }
 
 template <class T>
 COUNTERFLEX_INLINE Block<T> sum(const Polynomials& polynomials, int block_number,
                                 const TermValues<T>& values) {
-  const std::size_t terms = polynomials.terms.size();
-  const double* coefficients =
-      polynomials.coefficients.data() + block * terms * static_cast<std::size_t>(block_number);
+  const double* coefficients = polynomials.coefficients.data() +
+                               block * polynomials.terms.size() * static_cast<std::size_t>(block_number);
   Block<T> sum{};
-  for (std::size_t k = 0; k < terms; ++k, coefficients += block) {
+  for (std::size_t k = 0; k < polynomials.count(values.is_loaded); ++k, coefficients += block) {
     COUNTERFLEX_UNROLL
     for (int i = 0; i < block; ++i) sum.value[i] += coefficients[i] * values.value[k];
   }
@@ -72,7 +74,7 @@ void put_state_of_cell(const StartCell& cell, const Mask<T>& lanes, const Point<
   }
   if (cell.stress.empty()) return;
   TermValues<T> of_stress;
-  fill(cell.stress_changes, x, of_stress);
+  fill(cell.stress_changes, x, terms.is_loaded, of_stress);
   for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
     const Block<T> change = sum(cell.stress_changes, i, of_stress);
     Vec6<T>& stress = at(work.start_stress, i);
@@ -115,13 +117,15 @@ void put_real_from_cell(const StartCell& cell, const Mask<T>& lanes, Coupled<T>&
   const Variables& variables = cell.variables;
   const auto& of_command = coupled.problem.of_command;
   Point<T> place = find_place(cell, work);
-  for (int i = 0; i < 3 && variables.loads; ++i) {
-    place[variables.first_load() + i] = work.load.v[i] * work.question.load;
-    place[variables.first_load() + 3 + i] = work.load.w[i] * work.question.load;
+  bool is_loaded = false;
+  for (int i = 0; i < 6 && variables.loads; ++i) {
+    T& load = place[variables.first_load() + i];
+    load = (i < 3 ? work.load.v[i] : work.load.w[i - 3]) * work.question.load;
+    is_loaded = is_loaded || any<T>(load != 0.0);
   }
   Point<T> x = place;
   TermValues<T> terms;
-  fill(cell.changes, x, terms);
+  fill(cell.changes, x, is_loaded, terms);
   bool is_commanded = false;
   const int components = variables.first_load();
   for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(of_command, j);
@@ -133,7 +137,7 @@ void put_real_from_cell(const StartCell& cell, const Mask<T>& lanes, Coupled<T>&
         x[j] = place[j] - offset.value[j];
       else
         nominal_way[j] = select<T>(lanes, offset.value[j], nominal_way[j]);
-    if (is_commanded) fill(cell.changes, x, terms);
+    if (is_commanded) fill(cell.changes, x, is_loaded, terms);
   }
   put_state_of_cell(cell, lanes, x, terms, work);
 }
@@ -152,16 +156,22 @@ void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
       Point<T> x = find_place(cell, coupled.nominal);
       for (int i = 0; i < 6; ++i) x[i] += nominal_way[i];
       TermValues<T> terms;
-      fill(cell.changes, x, terms);
+      fill(cell.changes, x, false, terms);
       put_state_of_cell<T>(cell, lanes, x, terms, coupled.nominal);
     });
 }
 
-/// Bounds for first steps that begin in cells.
+/// Bounds for first steps that begin in cells: they grow with the load.
 template <class T>
-T contraction_of_cells(const Batch& batch, int first) {
-  return gather<T>(
-      [&](int l) { return batch.cells[first + l < batch.count ? first + l : batch.count - 1]->contraction; });
+T contraction_of_cells(const Batch& batch, int first, const Work<T>& work) {
+  const Vec3<T> force = work.load.v * work.question.load,
+                moment = work.load.w * (work.question.load / work.machine.length);
+  const T size_squared = dot(force, force) + dot(moment, moment);
+  return gather<T>([&](int l) {
+    const StartCell& cell = *batch.cells[first + l < batch.count ? first + l : batch.count - 1];
+    const double share = std::sqrt(lane(size_squared, l)) / load_of_cells;
+    return cell.unloaded_contraction + share * (cell.contraction - cell.unloaded_contraction);
+  });
 }
 
 }  // namespace counterflex::kernel

@@ -27,7 +27,7 @@ struct Samples {
 
 Vector6 unit_loads(double length) {
   Vector6 F;
-  F << Vector3::Constant(force_of_samples), Vector3::Constant(force_of_samples * length);
+  F << Vector3::Constant(load_of_cells), Vector3::Constant(load_of_cells * length);
   return F;
 }
 
@@ -35,7 +35,7 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
   Samples samples{{{place.centre}}, {}};
   for (int k = 0; k < variables.count(); ++k) {
     const int load = k - variables.first_load();
-    const double step = load >= 0 ? unit_loads(length)[load] : k < 3 ? place.step : turn_of_samples;
+    const double step = load >= 0 ? unit_loads(length)[load] : k < 3 ? place.step : turn_edge / 2;
     samples.steps.push_back(step);
     for (const double way : {step, -step}) {
       Sample sample{place.centre};
@@ -49,7 +49,7 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
 }
 
 /// Corners of the reach of a cell, each with another load of one size: along one component, or in all of
-/// them.
+/// them. Then the same corners without a load.
 std::vector<Sample> corners_about(const CellPlace& place, double length) {
   std::vector<Sample> corners;
   for (int k = 0; k < 8; ++k) {
@@ -59,8 +59,9 @@ std::vector<Sample> corners_about(const CellPlace& place, double length) {
     F.head<3>() = F.head<3>().cwiseProduct(signs);
     F.tail<3>() *= k % 2 == 0 ? length : -length;
     corners.push_back(
-        {place.centre + reach_of_lines * place.step * signs, Vector3::Zero(), load_of_lines * F});
+        {place.centre + reach_of_lines * place.step * signs, Vector3::Zero(), load_of_cells * F});
   }
+  for (int k = 0; k < 8; ++k) corners.push_back({at(corners, k).p});
   return corners;
 }
 
@@ -229,8 +230,8 @@ class CellSamples {
     for (int k = 0; k < variables_.count(); ++k)
       extents[k] = variables_.is_position(k)         ? place_.step
                    : variables_.is_turn(k)           ? turn_edge / 2
-                   : k < variables_.first_load() + 3 ? load_of_lines
-                                                     : load_of_lines * machine_.length;
+                   : k < variables_.first_load() + 3 ? load_of_cells
+                                                     : load_of_cells * machine_.length;
     std::vector<Term> terms;
     for (const Term& term : all_terms_) {
       const auto [i, j, k] = term.of;
@@ -240,13 +241,20 @@ class CellSamples {
           coefficients.col(term.number).cwiseProduct(units).cwiseAbs().maxCoeff() * extents.value_of(term);
       if (moves > negligible_term) terms.push_back(term);
     }
+    std::stable_partition(terms.begin(), terms.end(), [&](const Term& term) { return !has_load(term); });
     return in_blocks(coefficients, machine_.joints, std::move(terms));
   }
 
  private:
+  bool has_load(const Term& term) const {
+    return std::ranges::any_of(term.of, [&](int i) { return i != no_variable && variables_.is_load(i); });
+  }
+
   /// Coefficients in blocks: the first rows are filled up with zeros to whole blocks.
-  static Polynomials in_blocks(const Rows& coefficients, Eigen::Index first_rows, std::vector<Term> terms) {
-    Polynomials polynomials{std::move(terms), {}};
+  Polynomials in_blocks(const Rows& coefficients, Eigen::Index first_rows, std::vector<Term> terms) const {
+    const auto loaded = std::ranges::find_if(terms, [&](const Term& term) { return has_load(term); });
+    const auto unloaded = static_cast<std::size_t>(loaded - terms.begin());
+    Polynomials polynomials{std::move(terms), {}, unloaded};
     for (Eigen::Index first = 0; first < coefficients.rows();) {
       const Eigen::Index end = first < first_rows ? std::min(first + block, first_rows) : first + block;
       for (const Term& term : polynomials.terms)
@@ -322,7 +330,7 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
 void measure_at_corners(const Problem& target, const CellPlace& place, const StartCell& kinematics,
                         StartCell& cell) {
   const FlatMachine& machine = target.machine();
-  cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_lines, machine.length);
+  cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_cells, machine.length);
   const std::vector<Sample> corners = corners_about(place, machine.length);
   const auto solved = solve_samples(target, place, corners, {nullptr, nullptr, &cell, &kinematics}, {});
   if (!solved) {
@@ -338,7 +346,9 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
       cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
   }
   // Corners are where starts miss most, but for larger loads.
-  cell.contraction = *std::max_element(solved->contractions.begin(), solved->contractions.end());
+  const auto unloaded = solved->contractions.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
+  cell.contraction = *std::max_element(solved->contractions.begin(), unloaded);
+  cell.unloaded_contraction = *std::max_element(unloaded, solved->contractions.end());
 }
 
 }  // namespace
