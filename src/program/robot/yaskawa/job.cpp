@@ -13,7 +13,7 @@ namespace counterflex {
 namespace {
 
 constexpr auto body_begins =
-    std::to_array<std::string_view>({"IFTHENEXP", "IFTHEN", "WHILEEXP", "WHILE", "FOR", "SWITCH"});
+    std::to_array<std::string_view>({"IFTHENEXP", "IFTHEN", "IF", "WHILEEXP", "WHILE", "FOR", "SWITCH"});
 constexpr auto branches = std::to_array<std::string_view>({"ELSE", "ELSEIFEXP", "ELSEIF", "CASE", "DEFAULT"});
 constexpr auto body_ends = std::to_array<std::string_view>({"ENDIF", "ENDWHILE", "NEXT", "ENDSWITCH"});
 /// Instructions whose first variable is only read.

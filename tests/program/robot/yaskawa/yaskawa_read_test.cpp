@@ -125,6 +125,8 @@ TEST_CASE("steps without a target that is known are not followed") {
        "MFRAME changes the user coordinate system 1 at run time"},
       {"IFTHENEXP B000=0\nMOVL C00002 V=10\nENDIF\n",
        "a loop or a condition may run the step never or several times"},
+      {"IF ( IN#(1)=ON ) THEN\nMOVL C00002 V=10\nENDIF\n",
+       "a loop or a condition may run the step never or several times"},
   };
   for (const auto& [text, why] : jobs) {
     const auto& instructions = text;
