@@ -23,7 +23,10 @@ class Components {
  public:
   Components(const std::string& file, std::string_view text, const TpPosition& position)
       : file_(file), text_(text), position_(position) {
-    at_ = std::min(text.find('{', position.span.begin) + 1, position.span.end);
+    const std::size_t brace = text.find('{', position.span.begin);
+    if (brace >= position.span.end)
+      fail(position.span.begin, "the position has no '{' before its '}'; write P[1]{ ... };");
+    at_ = brace + 1;
   }
 
   /// The next group "GP1:" or component. False behind the last one.

@@ -224,3 +224,10 @@ TEST_CASE("a motion with a word that acts at its end or gives its time is not sp
   CHECK(unknown.moves[1].fixed[0]);
   CHECK(unknown.left_alone[0].why == "the word 'FROB[1]' is not supported");
 }
+
+TEST_CASE("a position without '{' is refused with its place") {
+  std::string positions = tp_square();
+  positions.erase(positions.find("P[3]{") + 4, 1);
+  CHECK(tp_refusal("L P[3] 9mm/sec CNT10 ;\n", positions) ==
+        "job.ls:20:1: error: the position has no '{' before its '}'; write P[1]{ ... };");
+}
