@@ -26,6 +26,9 @@ TEST_CASE("the summary has at most twelve lines: verdict, deviation, force, prog
   CHECK(contains(text, "  checks 1/2  feed force: backwards\n"));
   CHECK(contains(text, "  written     no corrected program, r.html\n"));
   CHECK(contains(text, "1 warning; -v shows all numbers\n"));
+  const std::vector<std::string> parts{"a", "b", "c", "d", "e", "f", "g"};
+  CHECK(contains(summary_text(report, parts, false),
+                 "  written     no corrected program, a, b, c, d, e and 2 more\n"));
 }
 
 TEST_CASE("the details show before and after, and call the remainder a model residual") {

@@ -128,6 +128,7 @@ std::string files_line(const RunReport& report, const std::vector<std::string>& 
   std::string text = no_program ? "no corrected program" : "";
   for (std::size_t i = 0; i < std::min(files.size(), shown_files + 1); ++i)
     text += (text.empty() ? "" : ", ") + without_controls(files[i]);
+  if (files.size() > shown_files + 1) text += fmt::format(" and {} more", files.size() - shown_files - 1);
   return text.empty() ? "" : wrapped(fmt::format("  {:<{}}", "written", label_width - 2), text, label_width);
 }
 
