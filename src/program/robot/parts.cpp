@@ -3,12 +3,29 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "counterflex/files/input_error.hpp"
 #include "program/dialect.hpp"
 
 namespace counterflex {
 namespace {
+
+/// How the programs of a dialect are divided, and joined again.
+struct Division {
+  std::string_view dialect;
+  std::vector<ProgramPart> (*divide)(const std::string& file, const std::string& text, std::size_t most);
+  std::string (*join)(const std::string& file, const std::vector<ProgramPart>& parts);
+};
+
+constexpr std::array divisions{Division{tp_name, divide_tp, joined_tp},
+                               Division{kuka_name, divide_krl, joined_krl},
+                               Division{abb_name, divide_rapid, joined_rapid}};
+
+const Division* division_of(std::string_view dialect) {
+  const auto found = std::ranges::find(divisions, dialect, &Division::dialect);
+  return found != divisions.end() ? &*found : nullptr;
+}
 
 int line_at(std::string_view text, std::size_t byte) {
   return 1 +
@@ -54,7 +71,7 @@ bool can_be_divided(std::string_view dialect) {
 }
 
 std::string_view why_not_divided(std::string_view dialect) {
-  if (dialect == tp_name || dialect == kuka_name || dialect == abb_name) return {};
+  if (division_of(dialect) != nullptr) return {};
   if (dialect == ur_name) return "a URScript program cannot call one of another file";
   if (dialect == apt_name) return "APT is the input of a post, which divides its output";
   return "programs of this language are not divided into parts";
@@ -62,13 +79,9 @@ std::string_view why_not_divided(std::string_view dialect) {
 
 std::vector<ProgramPart> divide_program(const std::string& file, std::string_view dialect,
                                         const std::string& text, std::size_t most) {
-  const bool tp = dialect == tp_name, krl = dialect == kuka_name;
-  std::vector<ProgramPart> parts = tp    ? divide_tp(file, text, most)
-                                   : krl ? divide_krl(file, text, most)
-                                         : divide_rapid(file, text, most);
-  const bool same = tp ? joined_tp(file, parts) == joined_tp(file, {{"", text}})
-                       : (krl ? joined_krl(parts) : joined_rapid(parts)) == text;
-  if (!same)
+  const Division& division = *division_of(dialect);
+  std::vector<ProgramPart> parts = division.divide(file, text, most);
+  if (division.join(file, parts) != division.join(file, {{"", text}}))
     throw InputError(ErrorKind::program_text, {file},
                      "the parts of the program are not the same as the program; leave out --max-points");
   return parts;

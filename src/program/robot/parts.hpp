@@ -26,11 +26,11 @@ std::vector<ProgramPart> divide_tp(const std::string& file, const std::string& t
 std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& text, std::size_t most);
 std::vector<ProgramPart> divide_rapid(const std::string& file, const std::string& text, std::size_t most);
 
-/// The texts of /MN of FANUC programs without numbers and header, each P[n] as the content of its position;
-/// and the KRL program or RAPID module with the lines of the parts in the places of their calls. They are the
-/// same for a program and its parts.
-std::vector<std::string> joined_tp(const std::string& file, const std::vector<ProgramPart>& parts);
-std::string joined_krl(const std::vector<ProgramPart>& parts);
-std::string joined_rapid(const std::vector<ProgramPart>& parts);
+/// A text that is the same for a program and its parts: the program with the statements of the parts in the
+/// places of their calls. FANUC: the statements of all programs, with the contents of positions in the places
+/// of their numbers.
+std::string joined_tp(const std::string& file, const std::vector<ProgramPart>& parts);
+std::string joined_krl(const std::string& file, const std::vector<ProgramPart>& parts);
+std::string joined_rapid(const std::string& file, const std::vector<ProgramPart>& parts);
 
 }  // namespace counterflex

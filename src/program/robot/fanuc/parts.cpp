@@ -151,8 +151,8 @@ std::vector<ProgramPart> divide_tp(const std::string& file, const std::string& t
   return parts;
 }
 
-std::vector<std::string> joined_tp(const std::string& file, const std::vector<ProgramPart>& parts) {
-  std::vector<std::string> all;
+std::string joined_tp(const std::string& file, const std::vector<ProgramPart>& parts) {
+  std::string all;
   for (std::size_t k = parts.size() > 1 ? 1 : 0; k < parts.size(); ++k) {
     const std::string& text = parts[k].text;
     const TpFile program = tp_file(file, text);
@@ -166,8 +166,8 @@ std::vector<std::string> joined_tp(const std::string& file, const std::vector<Pr
              text.substr(digits, span.end - digits).substr(std::to_string(*operand.number).size())});
       }
       const auto number = tp_line_number(text, line.span);
-      all.push_back(
-          with_changes(text, {number ? number->field.end : line.span.begin, line.span.end}, changes));
+      all += with_changes(text, {number ? number->field.end : line.span.begin, line.span.end}, changes);
+      all += '\n';
     }
   }
   return all;

@@ -151,7 +151,7 @@ std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& 
   return parts;
 }
 
-std::string joined_krl(const std::vector<ProgramPart>& parts) {
+std::string joined_krl(const std::string&, const std::vector<ProgramPart>& parts) {
   std::string text = parts.front().text;
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const Layout layout = layout_of(parts[k].text);

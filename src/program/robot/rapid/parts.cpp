@@ -206,7 +206,7 @@ std::vector<ProgramPart> divide_rapid(const std::string& file, const std::string
   return parts;
 }
 
-std::string joined_rapid(const std::vector<ProgramPart>& parts) {
+std::string joined_rapid(const std::string&, const std::vector<ProgramPart>& parts) {
   std::string text = parts.front().text;
   for (std::size_t k = 1; k < parts.size(); ++k) {
     const std::string& own = parts[k].text;
