@@ -87,6 +87,15 @@ TEST_CASE("the parts of a FANUC program have the targets of the program") {
   }
 }
 
+TEST_CASE("a second line /MN of a FANUC program does not repeat statements in its parts") {
+  std::string text = tp_text();
+  text.insert(text.find("/POS"), "/MN\n");
+  const std::vector<ProgramPart> parts = divide_program("job.ls", "fanuc_tp", text, 5);
+  const std::vector<ProgramPart> wanted = divide_program("job.ls", "fanuc_tp", tp_text(), 5);
+  REQUIRE(parts.size() == wanted.size());
+  for (std::size_t i = 0; i < parts.size(); ++i) CHECK(parts[i].text == wanted[i].text);
+}
+
 TEST_CASE("a KUKA program is divided into subprograms in files of their own, not inside of folds") {
   const std::vector<ProgramPart> parts = divide_program("job.src", "kuka", krl_begin + krl_body + krl_end, 3);
   REQUIRE(parts.size() == 3);

@@ -42,7 +42,7 @@ Layout layout_of(std::string_view text) {
       section = *next;
       const std::vector<Span> words = tp_words(text, line.span);
       if (words.size() > 1 && part(text, words[0]) == "/PROG") layout.name = words[1];
-      if (section == TpSection::statements) layout.statements = line.line_end.end;
+      if (section == TpSection::statements && layout.statements == 0) layout.statements = line.line_end.end;
       if (section == TpSection::positions) layout.positions = line.span.begin;
       if (section == TpSection::end) {
         layout.end = line.span.begin;
