@@ -14,6 +14,7 @@ constexpr auto family_names = std::to_array<std::string_view>({"C", "BC", "EC", 
 
 std::vector<Span> split(std::string_view text, Span code, std::string_view separators) {
   std::vector<Span> words;
+  text = text.substr(0, code.end);  // positions have no blanks: the next one may be far
   for (std::size_t at = code.begin; at < code.end;) {
     const std::size_t stop = std::min(text.find_first_of(separators, at), code.end);
     if (stop > at) words.push_back({at, stop});
