@@ -13,7 +13,7 @@ struct ProgramPart {
   std::string text;
 };
 
-/// Whether programs of `dialect` can be divided: FANUC TP, KUKA KRL and ABB RAPID.
+/// Whether programs of `dialect` can be divided: FANUC TP, KUKA KRL, ABB RAPID and Yaskawa INFORM.
 bool can_be_divided(std::string_view dialect);
 
 /// Why they cannot; empty if they can.

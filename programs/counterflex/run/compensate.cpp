@@ -84,10 +84,13 @@ void divide(const Options& options, Run& run, const OutputPaths& paths, RunFiles
   divide_program(file, dialect, text_of(run.file.by_line()), most);
   const std::vector<ProgramPart> parts = divide_program(paths.program, dialect, files.held_program(), most);
   files.write_parts(parts, part_paths(paths, parts, options));
+  const std::string &first = parts[1].name, &last = parts.back().name;
+  const bool one = parts.size() == 2;
   run.facts.warnings.push_back(
-      {0, fmt::format("the program calls {} parts of at most {} points: {} to {}; whether the robot stops "
-                      "between two parts depends on the control",
-                      parts.size() - 1, most, parts[1].name, parts.back().name)});
+      {0, fmt::format("the program calls {} part{} of at most {} points: {}; whether the robot stops between "
+                      "two parts depends on the control",
+                      parts.size() - 1, one ? "" : "s", most,
+                      one ? first : fmt::format("{} to {}", first, last))});
 }
 
 /// The written program, in parts if it has too many points.

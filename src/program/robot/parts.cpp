@@ -18,9 +18,9 @@ struct Division {
   std::string (*join)(const std::string& file, const std::vector<ProgramPart>& parts);
 };
 
-constexpr std::array divisions{Division{tp_name, divide_tp, joined_tp},
-                               Division{kuka_name, divide_krl, joined_krl},
-                               Division{abb_name, divide_rapid, joined_rapid}};
+constexpr std::array divisions{
+    Division{tp_name, divide_tp, joined_tp}, Division{kuka_name, divide_krl, joined_krl},
+    Division{abb_name, divide_rapid, joined_rapid}, Division{yaskawa_name, divide_jbi, joined_jbi}};
 
 const Division* division_of(std::string_view dialect) {
   const auto found = std::ranges::find(divisions, dialect, &Division::dialect);

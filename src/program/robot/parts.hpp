@@ -25,12 +25,14 @@ std::vector<std::size_t> begins_of_parts(const std::string& file, std::string_vi
 std::vector<ProgramPart> divide_tp(const std::string& file, const std::string& text, std::size_t most);
 std::vector<ProgramPart> divide_krl(const std::string& file, const std::string& text, std::size_t most);
 std::vector<ProgramPart> divide_rapid(const std::string& file, const std::string& text, std::size_t most);
+std::vector<ProgramPart> divide_jbi(const std::string& file, const std::string& text, std::size_t most);
 
 /// A text that is the same for a program and its parts: the program with the statements of the parts in the
-/// places of their calls. FANUC: the statements of all programs, with the contents of positions in the places
-/// of their numbers.
+/// places of their calls. FANUC and Yaskawa: the statements of all jobs, with the contents of positions in
+/// the places of their numbers.
 std::string joined_tp(const std::string& file, const std::vector<ProgramPart>& parts);
 std::string joined_krl(const std::string& file, const std::vector<ProgramPart>& parts);
 std::string joined_rapid(const std::string& file, const std::vector<ProgramPart>& parts);
+std::string joined_jbi(const std::string& file, const std::vector<ProgramPart>& parts);
 
 }  // namespace counterflex

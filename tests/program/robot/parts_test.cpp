@@ -192,7 +192,7 @@ TEST_CASE("an ABB program whose statements depend on their routine or module is 
 
 TEST_CASE("a language whose programs are not divided states why") {
   CHECK(can_be_divided("abb"));
-  for (const char* dialect : {"ur", "apt", "yaskawa"}) {
+  for (const char* dialect : {"ur", "apt"}) {
     CHECK(!can_be_divided(dialect));
     CHECK(!why_not_divided(dialect).empty());
   }
