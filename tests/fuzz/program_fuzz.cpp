@@ -1,7 +1,9 @@
 /// Fuzz target for the reader and the rewriter: any bytes are refused with a place or returned unchanged; a
-/// shift of every move is written or refused, and never gives an invalid program.
+/// shift of every move is written or refused, and never gives an invalid program. A robot program is divided
+/// into parts or refused.
 #include <string>
 
+#include "counterflex/program/parts.hpp"
 #include "counterflex/program/rewrite.hpp"
 #include "dialects.hpp"
 #include "fuzz.hpp"
@@ -35,6 +37,16 @@ void rewrite_shifted(const Program& program) {
   }
 }
 
+/// `divide_program` joins the parts again: parts that are not the same as the program are refused.
+void divide(const Program& program) {
+  constexpr std::size_t most = 3;
+  if (!can_be_divided(program.dialect)) return;
+  try {
+    demand(divide_program("fuzz.nc", program.dialect, program.text, most).size() > 1);
+  } catch (const InputError&) {  // refused
+  }
+}
+
 void read_and_rewrite(const std::string& text, const ReadOptions& options) {
   accept_or_refuse([&] {
     const Program program = read_program(text, "fuzz.nc", options);
@@ -42,6 +54,7 @@ void read_and_rewrite(const std::string& text, const ReadOptions& options) {
     demand(rewrite(program, {}, {}).text == program.text);
     demand(rewrite(program, edits_of(program, Vector3::Zero()), {}).text == program.text);
     rewrite_shifted(program);
+    divide(program);
   });
 }
 
