@@ -38,6 +38,31 @@ bool depends_on_frame(const Measurement& row) {
   return row.places.empty() || sum.norm() > 1e-6;
 }
 
+/// A stable machine deflects along a force: most readings of gauges along forces have the signs of these.
+void check_signs(const Measurements& measurements, std::size_t s) {
+  constexpr double along = 0.7;  // cosine of the angle between gauge and force
+  std::size_t count = 0, against = 0;
+  const Measurement* first = nullptr;
+  for (const Measurement& row : measurements.rows) {
+    if (row.session != s) continue;
+    const Vector3 F = row.states[0].F.head<3>();
+    const double force = F.dot(row.direction);
+    if (std::abs(force) <= along * F.norm()) continue;
+    ++count;
+    if (force * row.value >= 0) continue;
+    ++against;
+    if (first == nullptr) first = &row;
+  }
+  if (2 * against <= count) return;
+  throw InputError(
+      ErrorKind::machine_or_force, first->at,
+      fmt::format("session \"{}\": {} of {} readings are against their forces, first here: {:.4g} um under "
+                  "{:.4g} N along the gauge; a reading is positive in the direction of gx, gy, gz, and the "
+                  "force is that on the tool",
+                  measurements.sessions[s].name, against, count, first->value / um,
+                  first->states[0].F.head<3>().dot(first->direction)));
+}
+
 }  // namespace
 
 void check_sessions(const Measurements& measurements) {
@@ -61,6 +86,8 @@ void check_sessions(const Measurements& measurements) {
     // Sizes of a coupon leave the radius of the tool unknown, not the frame.
     const std::size_t unknowns = has_frame ? unknowns_of(session).size() : 1;
     if (first == nullptr) continue;
+    if (session.kind == MeasurementKind::static_push || session.kind == MeasurementKind::hung_weight)
+      check_signs(measurements, s);
     if (numbers <= unknowns)
       throw InputError(
           ErrorKind::machine_or_force, first->at,

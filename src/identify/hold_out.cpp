@@ -146,7 +146,7 @@ ErrorSummary summary(std::vector<double> errors) {
   const auto n = static_cast<double>(errors.size());
   result.mean = sum / n;
   result.rms = std::sqrt(squares / n);
-  result.p95 = errors[static_cast<std::size_t>(0.95 * (n - 1))];
+  result.p95 = errors[static_cast<std::size_t>(std::ceil(0.95 * n)) - 1];
   result.largest = errors.back();
   return result;
 }

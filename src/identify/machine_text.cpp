@@ -30,22 +30,46 @@ std::string number(double value, double sigma) {
   return text.find_first_of(".e") == std::string::npos ? text + ".0" : text;
 }
 
-std::string_view source_of(const IdentifiedParameter& parameter, const Machine& machine) {
-  if (parameter.is_identified) return "measured";
+const ParameterStatement* statement_of(const IdentifiedParameter& parameter, const Machine& machine) {
   for (const ParameterStatement& stated : machine.parameters)
-    if (stated.name == parameter.name)
-      return stated.source == NumberSource::measured    ? "measured"
-             : stated.source == NumberSource::catalogue ? "catalogue"
-                                                        : "prior";
-  return "prior";
+    if (stated.name == parameter.name) return &stated;
+  return nullptr;
+}
+
+std::string_view source_of(const IdentifiedParameter& parameter, const ParameterStatement* stated) {
+  if (parameter.is_identified) return "measured";
+  if (stated == nullptr) return "prior";
+  return stated->source == NumberSource::measured    ? "measured"
+         : stated->source == NumberSource::catalogue ? "catalogue"
+                                                     : "prior";
+}
+
+/// Where the number is from: a parameter that is not identified keeps its note.
+std::string note_of(const IdentifiedParameter& parameter, const ParameterStatement* stated,
+                    const std::string& files) {
+  if (parameter.is_identified) return "identified from " + files;
+  const std::string free = "not identified by " + files;
+  if (stated == nullptr || stated->note.empty()) return free;
+  constexpr double same = 1e-3;  // of the prior deviation
+  const bool has_moved = std::abs(parameter.value - parameter.before) > same * parameter.prior;
+  return has_moved && !stated->note.ends_with(free) ? stated->note + "; " + free : stated->note;
 }
 
 std::string entry(const IdentifiedParameter& parameter, const Machine& machine, const std::string& files) {
-  const std::string note = (parameter.is_identified ? "identified from " : "not identified by ") + files;
+  const ParameterStatement* stated = statement_of(parameter, machine);
   return fmt::format("{} = {{ value = {}, sigma = {:.3g}, source = \"{}\", note = {} }}",
                      quoted(parameter.name),
                      number(parameter.value / parameter.unit, parameter.sigma / parameter.unit),
-                     parameter.sigma / parameter.unit, source_of(parameter, machine), quoted(note));
+                     parameter.sigma / parameter.unit, source_of(parameter, stated),
+                     quoted(note_of(parameter, stated, files)));
+}
+
+/// Whether the machine file without a line of the parameter would have another value or deviation.
+bool tells_more(const IdentifiedParameter& parameter) {
+  constexpr double same_value = 1e-6, same_sigma = 1e-3;  // of the prior deviation
+  return !parameter.is_default_prior ||
+         std::abs(parameter.value - parameter.before) > same_value * parameter.prior ||
+         parameter.sigma < (1 - same_sigma) * parameter.prior;
 }
 
 }  // namespace
@@ -56,7 +80,7 @@ std::string with_identified(std::string_view text, const std::string& file, cons
   const toml::table document = source.parse();
   std::map<std::string, std::string> entries;
   for (const IdentifiedParameter& parameter : found.parameters)
-    entries[parameter.name] = entry(parameter, found.machine, files);
+    if (tells_more(parameter)) entries[parameter.name] = entry(parameter, found.machine, files);
   // Lines of entries that are there are replaced; an inline table is one line.
   std::map<int, std::string> replaced;
   int header = 0;

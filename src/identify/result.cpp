@@ -38,6 +38,7 @@ void reduce(Eigen::MatrixXd& rows) {
 std::vector<FreeCombination> free_combinations(const std::vector<IdentifiedParameter>& parameters,
                                                const Eigen::MatrixXd& covariance) {
   const auto n = static_cast<Eigen::Index>(parameters.size());
+  if (n == 0) return {};
   Eigen::VectorXd prior(n);
   for (Eigen::Index k = 0; k < n; ++k) prior[k] = parameters[static_cast<std::size_t>(k)].prior;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(prior.cwiseInverse().asDiagonal() * covariance *
@@ -91,8 +92,8 @@ void fill_parameters(const Machine& machine, const Candidates& candidates, const
 
 void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result) {
   std::vector<std::pair<double, std::size_t>> ratios;
-  double squares = 0;
-  std::size_t count = 0;
+  double squares = 0, stated = 0;
+  std::size_t count = 0, with_sigma = 0;
   for (std::size_t i = 0; i < fit.rows.size(); ++i) {
     const LinearRow& row = fit.rows[i];
     const Measurement& measured = problem.measurements.rows[i];
@@ -104,8 +105,12 @@ void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result
     else if (measured.is_length) {
       squares += error * error;
       ++count;
+      if (!problem.measurements.sessions[row.session].sigma_given) continue;
+      stated += error * error / (measured.sigma * measured.sigma * static_cast<double>(row.at.distances));
+      ++with_sigma;
     }
   }
+  if (with_sigma > 0) result.misfit = std::sqrt(stated / static_cast<double>(with_sigma));
   if (count > 0) result.lack_of_fit = std::sqrt(squares / static_cast<double>(count));
   std::stable_sort(ratios.begin(), ratios.end(),
                    [](const auto& a, const auto& b) { return a.first > b.first; });

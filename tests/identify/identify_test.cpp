@@ -228,6 +228,54 @@ TEST_CASE("a session in inches, or with radians as degrees, is refused by name")
   }
 }
 
+TEST_CASE("readings against their forces are refused, a few of them are not") {
+  Random random(5);
+  const Machine nominal = six_axis_robot();
+  Measurements all;
+  add_pushes(nominal, 12, 0, 0.5, 300, 0, random, all);
+  Measurements few = all;
+  for (Measurement& row : all.rows) row.value *= -1;
+  for (std::size_t i = 0; i < 4; ++i) few.rows[i].value *= -1;
+  CHECK_NOTHROW(identify(nominal, few, {}));
+  try {
+    identify(nominal, all, {});
+    FAIL("it was accepted");
+  } catch (const InputError& error) {
+    const std::string what = error.what();
+    CHECK(what.starts_with(
+        "pushes.csv:2:1: error: session \"pushes\": 12 of 12 readings are against their forces"));
+    CHECK(what.find("a reading is positive in the direction of gx, gy, gz") != std::string::npos);
+  }
+}
+
+TEST_CASE("measurements that fit the machine file as it is keep no set, and the result has no parameter") {
+  Random random(5);
+  const Machine nominal = six_axis_robot();
+  Measurements all;
+  add_pushes(nominal, 20, 0, 0.5, 300, 1e-5, random, all);
+  IdentifyOptions options;
+  options.sets = {ParameterSet::compliance};
+  const Identification found = identify(nominal, all, options);
+  REQUIRE(found.ladder.size() == 1);
+  CHECK_FALSE(found.ladder[0].is_kept);
+  CHECK(found.parameters.empty());
+  CHECK(found.free.empty());
+}
+
+TEST_CASE("the misfit is the size of the residuals in the deviations that the rows state") {
+  const Machine nominal = six_axis_robot();
+  const auto misfit_of = [&](double share) {
+    Random random(5);
+    Measurements all;
+    add_pushes(nominal, 40, 0, 0.5, 300, 1e-5, random, all);
+    for (Measurement& row : all.rows) row.sigma *= share;
+    return identify(nominal, all, without_ladder()).misfit.value_or(0);
+  };
+  CHECK(misfit_of(1) > 0.5);
+  CHECK(misfit_of(1) < 1.2);
+  CHECK(misfit_of(0.1) > 5);
+}
+
 TEST_CASE("two rows that were swapped are named") {
   Random random(6);
   const Machine nominal = six_axis_robot(), truth = drawn(nominal, 0.3e-3, 3e-4, 0.3, random);

@@ -161,3 +161,18 @@ TEST_CASE("the written machine file has the identified values, and all its other
   CHECK(at >= text.size());
   CHECK(other >= written.size());
 }
+
+TEST_CASE("a parameter that is not identified keeps its note, and gets no line if the file has none") {
+  const std::string text = mill_text();
+  const Machine nominal = read_machine(text, "mill.toml");
+  Random random(9);
+  IdentifyOptions options;
+  options.ladder = false;
+  const Identification found =
+      identify(nominal, rows_of(MeasurementKind::hung_weight, true_mill(nominal), random), options);
+  const std::string written = with_identified(text, "mill.toml", found, "rows.csv");
+  CHECK(written.find("\"Z.compliance_m_per_N\" = { value = ") != std::string::npos);
+  CHECK(written.find("identified from rows.csv") != std::string::npos);
+  CHECK(written.find("50 µm/m, usual; tram the spindle") != std::string::npos);
+  CHECK(written.find("\"XY.x_mm\"") == std::string::npos);
+}

@@ -112,6 +112,7 @@ struct Identification {
   std::vector<FreeCombination> free;
   std::optional<double> repeatability;  ///< m: rms scatter of repeated states
   double lack_of_fit = 0;               ///< m: rms of the residuals of positions and readings
+  std::optional<double> misfit;         ///< the same in units of the deviations that the rows state
   int iterations = 0;
   bool is_converged = false;
   Machine machine;                            ///< with the identified values

@@ -7,8 +7,8 @@
 
 namespace counterflex {
 
-/// For a terminal.
-std::string to_text(const Identification& found);
+/// For a terminal: the parameters that are identified, or all.
+std::string to_text(const Identification& found, bool all_parameters = false);
 
 /// "counterflex-identification 1": values, their covariance in the units of their names, the tests of the
 /// fit.

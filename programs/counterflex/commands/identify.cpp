@@ -133,7 +133,13 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
     page_file->write(identification_page(found, input.machine.name, names_of(options.identify.data)));
   }
   publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
-  if (output != "-") write_result(options.json ? to_json(found) : to_text(found));
+  if (output == "-") return {};
+  std::string written;
+  for (const std::string& file : {output, report, page})
+    if (!file.empty()) written += (written.empty() ? "" : ", ") + without_controls(file);
+  write_result(options.json ? to_json(found)
+                            : to_text(found, options.verbose) +
+                                  (written.empty() ? "" : fmt::format("\nwritten      {}\n", written)));
   return {};
 }
 

@@ -24,14 +24,64 @@ std::string place(const Location& at) {
   return fmt::format("{}:{}", at.file, at.line);
 }
 
-std::string parameter_lines(const Identification& found) {
+/// "  26.3 N/um": the stiffness that a compliance is, which people know; else empty.
+std::string stiffness_words(const IdentifiedParameter& p) {
+  if (p.kind != ParameterKind::compliance || !(p.value > 0)) return "";
+  if (p.name.ends_with("_m_per_N")) return fmt::format("  {:.3g} N/um", um / p.value);
+  return fmt::format("  {:.3g} N m/rad", 1 / p.value);
+}
+
+/// All parameters, or those that the data identify.
+std::string parameter_lines(const Identification& found, bool all) {
   std::size_t width = 9;
-  for (const IdentifiedParameter& p : found.parameters) width = std::max(width, p.name.size());
+  bool is_any = false;
+  for (const IdentifiedParameter& p : found.parameters) {
+    if (!all && !p.is_identified) continue;
+    width = std::max(width, p.name.size());
+    is_any = true;
+  }
+  if (!is_any) return "\nno parameter is identified\n";
   std::string text =
       fmt::format("\n{:<{}} {:>12} {:>12} {:>11}\n", "parameter", width, "before", "after", "sigma");
   for (const IdentifiedParameter& p : found.parameters)
-    text += fmt::format("{:<{}} {:>12.5g} {:>12.5g} {:>11.2g}{}\n", p.name, width, p.before / p.unit,
-                        shown_value(p) / p.unit, p.sigma / p.unit, p.is_identified ? "" : "  not identified");
+    if (all || p.is_identified)
+      text += fmt::format("{:<{}} {:>12.5g} {:>12.5g} {:>11.2g}{}\n", p.name, width, p.before / p.unit,
+                          shown_value(p) / p.unit, p.sigma / p.unit,
+                          p.is_identified ? stiffness_words(p) : "  not identified");
+  return text;
+}
+
+/// "XY.x_mm y_mm, spindle.rx_deg": names with their slot once.
+std::string free_names(const Identification& found) {
+  std::string text;
+  std::string_view slot;
+  for (const IdentifiedParameter& p : found.parameters) {
+    if (p.is_identified) continue;
+    const std::string_view name = p.name;
+    const std::size_t dot = name.rfind('.');
+    const std::string_view its_slot = dot == std::string_view::npos ? "" : name.substr(0, dot);
+    if (!text.empty() && !its_slot.empty() && its_slot == slot)
+      text += fmt::format(" {}", name.substr(dot + 1));
+    else
+      text += fmt::format("{}{}", text.empty() ? "" : ", ", name);
+    slot = its_slot;
+  }
+  return text;
+}
+
+/// In stated deviations: more than noise explains.
+constexpr double large_misfit = 3;
+
+std::string misfit_lines(const Identification& found) {
+  std::string text = fmt::format("lack of fit  {:.4g} mm rms of all rows", found.lack_of_fit / mm);
+  if (found.misfit) text += fmt::format(", {:.2g} of their stated deviations", *found.misfit);
+  text += found.repeatability
+              ? fmt::format("; repeated states scatter by {:.4g} mm\n", *found.repeatability / mm)
+              : "; no state was repeated, so that noise is not known\n";
+  if (found.misfit.value_or(0) > large_misfit)
+    text +=
+        "             this is more than noise: check signs, units and columns of the rows, the tool and the "
+        "kinds of errors\n             that the machine file has, or state larger deviations\n";
   return text;
 }
 
@@ -86,7 +136,7 @@ Json json_of(const ErrorSummary& summary, double unit) {
 
 }  // namespace
 
-std::string to_text(const Identification& found) {
+std::string to_text(const Identification& found, bool all_parameters) {
   std::string text;
   for (const HeldOutGroup& group : found.held_out) {
     const ErrorUnit unit = unit_of(group.kind, group.is_length);
@@ -102,16 +152,11 @@ std::string to_text(const Identification& found) {
     text += fmt::format("{:<12} {}: removes {:.1f} % of the held-out error, standard error {:.1f} %\n",
                         step.is_kept ? "kept" : "rejected", name_of(step.set), 100 * step.gain,
                         100 * step.gain_scatter);
-  text += fmt::format("lack of fit  {:.4g} mm rms of all rows", found.lack_of_fit / mm);
-  text += found.repeatability
-              ? fmt::format("; repeated states scatter by {:.4g} mm\n", *found.repeatability / mm)
-              : "; no state was repeated, so that noise is not known\n";
-  text += parameter_lines(found);
-  std::string free;
-  for (const IdentifiedParameter& p : found.parameters)
-    if (!p.is_identified) free += (free.empty() ? "" : ", ") + p.name;
-  if (!free.empty())
-    text += "\nnot identified (the measurements leave more than half of the prior deviation): " + free + "\n";
+  text += misfit_lines(found);
+  text += parameter_lines(found, all_parameters);
+  if (const std::string free = free_names(found); !free.empty())
+    text +=
+        "\nnot identified (the measurements leave more than half of the prior deviation):\n  " + free + "\n";
   for (const FreeCombination& combination : found.free)
     text += fmt::format("free together {}\n", changes_of(combination, found));
   if (!found.is_converged)
@@ -171,6 +216,7 @@ std::string to_json(const Identification& found) {
     json["held_out"].push_back(std::move(entry));
   }
   json["lack_of_fit_mm"] = found.lack_of_fit / mm;
+  if (found.misfit) json["misfit"] = *found.misfit;
   json["repeatability_mm"] = found.repeatability ? Json(*found.repeatability / mm) : Json(nullptr);
   json["correlations"] = Json::array();
   for (const Correlation& c : found.correlations)

@@ -134,7 +134,8 @@ std::string file_line(const Location& at) {
 
 std::string row_tables(const Identification& found) {
   std::string text = fmt::format(
-      "<h2>Noise and misfit</h2>\n<p>All rows miss by {:.4g} mm rms. {}</p>\n", found.lack_of_fit / mm,
+      "<h2>Noise and misfit</h2>\n<p>All rows miss by {:.4g} mm rms{}. {}</p>\n", found.lack_of_fit / mm,
+      found.misfit ? fmt::format(", {:.2g} of their stated deviations", *found.misfit) : "",
       found.repeatability
           ? fmt::format("Repeated states scatter by {:.4g} mm: the rest is what the model lacks.",
                         *found.repeatability / mm)
