@@ -38,7 +38,8 @@ std::optional<Vector3> tip_stiffness(const Model& model, const std::optional<Vec
 
 SanityCheck check_tip_stiffness(const std::optional<Vector3>& stiffness, const std::string& where) {
   if (!stiffness)
-    return {"tip stiffness", SanityState::unknown, fmt::format("{} the machine has no equilibrium", where)};
+    return {"tip stiffness", SanityState::unknown,
+            fmt::format("{} the machine has no equilibrium in the orientation of home", where)};
   const Vector3 k = *stiffness / N_per_um;
   if (!k.array().isFinite().any())
     return {"tip stiffness", SanityState::ok, fmt::format("rigid along x, y and z {}", where)};

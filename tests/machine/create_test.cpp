@@ -171,6 +171,17 @@ TEST_CASE("facts that make no machine are refused with what is allowed") {
   CHECK(refusal(hexapod) == "error: leg 1 has no length at the home of the platform");
 }
 
+TEST_CASE("a table of nodes with semicolons may have decimal commas") {
+  const std::vector<LegNodes> nodes = read_leg_nodes(
+      "base_x_mm;base_y_mm;base_z_mm;platform_x_mm;platform_y_mm;platform_z_mm\n"
+      "1,5;2;3;4;5;6\n1;2;3;4;5;6,25\n1;2;3;4;5;6\n1;2;3;4;5;6\n1;2;3;4;5;6\n1.5;2;3;4;5;6\n",
+      "nodes.csv");
+  REQUIRE(nodes.size() == 6);
+  CHECK(nodes[0].base_mm == Vector3(1.5, 2, 3));
+  CHECK(nodes[1].platform_mm == Vector3(4, 5, 6.25));
+  CHECK(nodes[5].base_mm == Vector3(1.5, 2, 3));
+}
+
 TEST_CASE("a bad table of nodes is refused at its place") {
   CHECK(nodes_refusal("").starts_with("nodes.csv:1:1: error: the table has 0 legs, must have six"));
   CHECK(nodes_refusal("base_x_mm,base_y\n")

@@ -118,8 +118,8 @@ TEST_CASE(
   CHECK_FALSE(known.moves[1].may_insert_words);
   REQUIRE(known.remarks.size() == 1);
   CHECK(known.remarks[0].what ==
-        "G43: the length of T1 is not known; the tip of [tool] is used (give --tool-length T1=MM, "
-        "--tool-table, or length_mm in [tools.T1])");
+        "G43: the length of T1 is not known; the tip of [tool] is used (give length_mm in [tools.T1], "
+        "--tool-table, or --tool-length T1=MM)");
 }
 
 TEST_CASE("with given tool lengths the remark is about a tool without a length") {

@@ -99,3 +99,8 @@ TEST_CASE("a name with characters of XML is escaped in a drawing") {
   CHECK(svg.find("<mill>") == std::string::npos);
   CHECK(svg.find("&lt;mill&gt; &amp;") != std::string::npos);
 }
+
+TEST_CASE("springs of one name have one label in each view") {
+  const Drawn hexapod = made(MachineKind::hexapod);
+  CHECK(count(machine_drawing(hexapod.machine, hexapod.model), ">strut<") == 3);
+}

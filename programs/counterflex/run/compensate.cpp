@@ -47,7 +47,8 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
   events.done = [&](const Job&, const Compensation& window) {
     std::unique_lock alone(windows.speaking());
     for (const LeftAlone& block : window.left_alone)
-      console.warning(run.program.file, block.line, "not corrected: " + block.why);
+      console.warning(run.program.file, block.line,
+                      (block.why.starts_with("not split, ") ? "" : "not corrected: ") + block.why);
     unnumbered.add(window.counts);
     points = window.counts.points;
     alone.unlock();

@@ -178,7 +178,12 @@ std::pair<long, double> tool_length_of(std::string_view name, std::string_view t
   if (!tool || equals == text.size())
     throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' must be a tool and its length in mm, as T1=50", name, text));
-  return {*tool, number_of(fmt::format("{} T{}", name, *tool), text.substr(equals + 1))};
+  const std::string_view length = text.substr(equals + 1);
+  if (length.find(',') != std::string_view::npos)
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("{}: '{}' must be one tool and its length in mm; repeat {} for each tool",
+                                 name, text, name));
+  return {*tool, number_of(fmt::format("{} T{}", name, *tool), length)};
 }
 
 std::size_t choice_of(std::string_view name, std::string_view text,

@@ -1,5 +1,6 @@
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -35,7 +36,9 @@ LegNodes nodes_of(std::string_view line, Location where) {
   const std::vector<csv::Field> fields = fields_of(line, where);
   for (std::size_t i = 0; i < fields.size(); ++i) {
     where.column = fields[i].column;
-    const auto value = read_number(fields[i].text);
+    std::string text(fields[i].text);
+    if (line.find(';') != std::string_view::npos) std::replace(text.begin(), text.end(), ',', '.');
+    const auto value = read_number(text);
     if (!value)
       csv::fail(where, fmt::format("{} is '{}', must be a finite number in mm", node_columns[i],
                                    without_controls(fields[i].text)));

@@ -45,9 +45,12 @@ const Robot& robot_of(const MachineFacts& facts) {
     throw InputError(ErrorKind::usage, {},
                      fmt::format("robot6r needs --robot NAME, one of {}", fmt::join(names, ", ")));
   const std::string_view meant = nearest(facts.robot, names);
-  throw InputError(ErrorKind::usage, {},
-                   fmt::format("--robot is '{}', must be one of {}{}", facts.robot, fmt::join(names, ", "),
-                               meant.empty() ? "" : fmt::format("; did you mean {}?", meant)));
+  throw InputError(
+      ErrorKind::usage, {},
+      fmt::format("--robot is '{}', must be one of {}; {}", facts.robot, fmt::join(names, ", "),
+                  meant.empty() ? "for another robot, change the lengths in the file of one with "
+                                  "the same build, or use counterflex import"
+                                : fmt::format("did you mean {}?", meant)));
 }
 
 double compliance_of(const Robot& robot, std::size_t i) {

@@ -77,8 +77,8 @@ void remark_tool_length(const Block& block, Reading& reading) {
     return add_remark(reading.program, block.line,
                       code + ": the tool and its length are not known; the tip of [tool] is used");
   add_remark(reading.program, block.line,
-             fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give --tool-length "
-                         "T{}=MM, --tool-table, or length_mm in [tools.T{}])",
+             fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give length_mm in "
+                         "[tools.T{}], --tool-table, or --tool-length T{}=MM)",
                          code, tool, tool, tool));
 }
 

@@ -139,8 +139,14 @@ std::string parts_svg(const std::vector<DrawnPart>& parts, const ViewFrame& fram
     const auto there = std::find_if(labels.begin(), labels.end(), [&](const DrawnLabel& label) {
       return std::abs(label.x - x) < near_px && std::abs(label.y - y) < near_px;
     });
-    if (there == labels.end())
+    // The springs of legs from one template have one name: it is written once.
+    const bool is_written = part.kind == DrawnKind::spring &&
+                            std::any_of(labels.begin(), labels.end(),
+                                        [&](const DrawnLabel& label) { return label.text == part.name; });
+    if (there == labels.end() && !is_written)
       labels.push_back({x, y, part.name});
+    else if (there == labels.end())
+      continue;
     else if ((", " + there->text + ", ").find(", " + part.name + ", ") == std::string::npos)
       there->text += ", " + part.name;
   }
