@@ -67,6 +67,14 @@ std::string_view without_mark(std::string_view text) {
 
 constexpr int next_count = 3;
 
+/// Whether all rows are deflections under a load, in which errors of geometry hardly show: a fit of these
+/// would only fit noise.
+bool are_deflections(const Measurements& measurements) {
+  return std::all_of(measurements.sessions.begin(), measurements.sessions.end(), [](const Session& session) {
+    return session.kind == MeasurementKind::static_push || session.kind == MeasurementKind::hung_weight;
+  });
+}
+
 /// Of --for, if it is given.
 std::optional<Failure> places_for(const Options& options, Console& console,
                                   std::vector<ProgramPlace>& places) {
@@ -108,6 +116,10 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   if (measurements.empty_rows > 0)
     console.note(
         fmt::format("{} rows of sheets have no measured value and are skipped\n", measurements.empty_rows));
+  if (!options.identify.fit && !measurements.rows.empty() && are_deflections(measurements)) {
+    wanted.sets = {ParameterSet::compliance};
+    console.note("the rows are pushes and weights: only compliances are fitted (default of --fit)\n");
+  }
   std::vector<ProgramPlace> places;
   if (const auto failure = places_for(options, console, places)) return failure->kind;
   console.progress("identifying");

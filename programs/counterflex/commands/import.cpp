@@ -76,7 +76,7 @@ std::string imported_tables(const ImportOptions& options) {
   for (const auto& [error, value] : volcomp.position_errors)
     text += fmt::format("# {} = {:.6g} {} is an error between two axes: put it into an error slot.\n", error,
                         1e6 * value, error[0] >= 'X' ? "um" : "urad");
-  for (const auto& [axis, table] : volcomp.tables) text += "\n" + table_text(axis, table);
+  for (const auto& [axis, table] : volcomp.tables) text += fmt::format("\n{}", table_text(axis, table));
   return text;
 }
 

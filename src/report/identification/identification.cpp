@@ -40,7 +40,10 @@ std::string parameter_lines(const Identification& found, bool all) {
     width = std::max(width, p.name.size());
     is_any = true;
   }
-  if (!is_any) return "\nno parameter is identified\n";
+  if (!is_any)
+    return found.parameters.empty() && !found.ladder.empty()
+               ? "\nno parameter changes: no set was kept (--all keeps rejected sets, too)\n"
+               : "\nno parameter is identified (-v lists them)\n";
   std::string text =
       fmt::format("\n{:<{}} {:>12} {:>12} {:>11}\n", "parameter", width, "before", "after", "sigma");
   for (const IdentifiedParameter& p : found.parameters)
