@@ -44,7 +44,7 @@ void check_signs(const Measurements& measurements, std::size_t s) {
   std::size_t count = 0, against = 0;
   const Measurement* first = nullptr;
   for (const Measurement& row : measurements.rows) {
-    if (row.session != s) continue;
+    if (row.session != s || !row.gauge.isZero(0)) continue;
     const Vector3 F = row.states[0].F.head<3>();
     const double force = F.dot(row.direction);
     if (std::abs(force) <= along * F.norm()) continue;
@@ -88,13 +88,21 @@ void check_sessions(const Measurements& measurements) {
     if (first == nullptr) continue;
     if (session.kind == MeasurementKind::static_push || session.kind == MeasurementKind::hung_weight)
       check_signs(measurements, s);
+    if (session.has_loading != session.has_unloading)
+      throw InputError(
+          ErrorKind::machine_or_force, first->at,
+          fmt::format("session \"{}\" has rows of phase {} alone; friction shows in the difference: add rows "
+                      "of phase {}, or leave the column out",
+                      session.name, session.has_loading ? "loading" : "unloading",
+                      session.has_loading ? "unloading" : "loading"));
     if (numbers <= unknowns)
       throw InputError(
           ErrorKind::machine_or_force, first->at,
           fmt::format("session \"{}\" has {} measured numbers; its frames alone have {} freedoms: measure "
                       "more states",
                       session.name, numbers, unknowns));
-    const bool needs_motion = unknowns > 0;
+    const bool needs_motion = unknowns > 0 && session.kind != MeasurementKind::static_push &&
+                              session.kind != MeasurementKind::hung_weight;
     if (needs_motion && spread < 1e-6)
       throw InputError(ErrorKind::machine_or_force, first->at,
                        fmt::format("all rows of session \"{}\" have the same actuator values; no fit can "

@@ -188,7 +188,7 @@ TEST_CASE("a sheet that was written is read with the rows that have a value") {
     CHECK(read.empty_rows == piece.rows.rows.size() - 2);
     CHECK(read.rows[0].value == doctest::Approx(12e-6).epsilon(1e-2));
     CHECK(read.rows[1].value == doctest::Approx(-10e-6).epsilon(1e-6));
-    CHECK(read.rows[1].radius_share == 2);
+    CHECK(read.rows[1].offset_share == 2);
     REQUIRE(read.rows[0].places.size() == piece.rows.rows[0].places.size());
     for (std::size_t i = 0; i < read.rows[0].places.size(); ++i) {
       CHECK((read.rows[0].states[i].shown - piece.rows.rows[0].states[i].shown).norm() < 1e-8);

@@ -62,12 +62,15 @@ struct Measurement {
   std::vector<CommandedState> states{};
   Pose X{};                             ///< tracker: measured, in the session's frame
   Vector3 direction = Vector3::Zero();  ///< of the gauge, or along or about the axis; unit vector in M
-  bool is_length = true;                ///< of value and sigma
-  double value = 0;                     ///< m; else rad, or m/m of a scale
-  double sigma = 0;                     ///< standard deviation of value
-  double sigma_angle = 0;               ///< of an orientation (rad)
-  std::vector<FeaturePlace> places{};   ///< of a feature, by state
-  double radius_share = 0;              ///< of a feature: of the deviation of the tool's radius
+  Vector3 gauge = Vector3::Zero();  ///< of a push or weight: where the gauge touches, in the tip's frame (m)
+  bool is_length = true;            ///< of value and sigma
+  double value = 0;                 ///< m; else rad, or m/m of a scale
+  double sigma = 0;                 ///< standard deviation of value
+  double sigma_angle = 0;           ///< of an orientation (rad)
+  std::vector<FeaturePlace> places{};  ///< of a feature, by state
+  /// Of the session's unknown offset: of a feature, of the deviation of the tool's radius; of a push, of half
+  /// the hysteresis.
+  double offset_share = 0;
 };
 
 /// Rows that share their unknown frames: one set-up of a tracker, one plane.
@@ -79,6 +82,9 @@ struct Session {
   /// Rows are in the machine frame, of the probe at X_TB; a plane is z = 0 of that frame. No unknown frames.
   bool has_known_frame = false;
   double probe_sigma = 0.3;  ///< standard deviation of its position (m)
+  /// Pushes: whether rows were read while the force grew, and while it fell. With both, half the difference
+  /// that friction makes is unknown.
+  bool has_loading = false, has_unloading = false;
 };
 
 struct Measurements {

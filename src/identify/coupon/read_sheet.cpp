@@ -153,7 +153,7 @@ class SheetReader {
     row.states.push_back(std::move(state));
     row.places.push_back({Vector3(number("x_mm", where), number("y_mm", where), number("z_mm", where)) * mm,
                           Vector3(number("wx", where), number("wy", where), number("wz", where))});
-    row.radius_share += number("wr", where);
+    row.offset_share += number("wr", where);
   }
 
   void add_rows() {

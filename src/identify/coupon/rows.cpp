@@ -77,7 +77,7 @@ Measurements coupon_rows(const Coupon& coupon, const std::vector<CouponPlace>& p
   for (const CouponQuantity& quantity : coupon.quantities) {
     Measurement row;
     row.sigma = um;
-    row.radius_share = quantity.radius_share;
+    row.offset_share = quantity.radius_share;
     if (quantity.fit == CouponFit::mean)
       add_means(quantity, by_line, X_MW, row);
     else
@@ -86,7 +86,7 @@ Measurements coupon_rows(const Coupon& coupon, const std::vector<CouponPlace>& p
   }
   Measurement tool;
   tool.sigma = um;
-  tool.radius_share = 2;
+  tool.offset_share = 2;
   add_place(places.front(), Vector3::Zero(), tool);
   rows.rows.push_back(std::move(tool));
   return rows;

@@ -67,7 +67,7 @@ std::string coupon_sheet(const Machine& machine, const Coupon& coupon, const Mea
     const Measurement& row = rows.rows[k];
     for (std::size_t i = 0; i < row.places.size(); ++i)
       text += place_line(all, names[k], row.states[i], row.places[i],
-                         row.radius_share / static_cast<double>(row.places.size()));
+                         row.offset_share / static_cast<double>(row.places.size()));
   }
   return text;
 }

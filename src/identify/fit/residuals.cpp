@@ -63,7 +63,7 @@ RowResidual bar(const Measurement& row, const Response* at) {
 
 /// A sum of weighted deviations in the frame of the part, and what the tool's radius adds.
 RowResidual feature(const Measurement& row, const SessionFrames& frames, const Response* at) {
-  double predicted = row.radius_share * frames.offset;
+  double predicted = row.offset_share * frames.offset;
   Eigen::RowVectorXd J_p = Eigen::RowVectorXd::Zero(at[0].tangents.cols());
   Eigen::RowVectorXd J_s = Eigen::RowVectorXd::Zero(session_unknowns);
   for (std::size_t k = 0; k < row.places.size(); ++k) {
@@ -74,9 +74,24 @@ RowResidual feature(const Measurement& row, const SessionFrames& frames, const R
     J_s.head<3>() += weight.transpose();
     J_s.segment<3>(3) -= weight.transpose() * skew(p_S - frames.X_SM.p);
   }
-  J_s[12] = row.radius_share;
+  J_s[12] = row.offset_share;
   RowResidual out = scalar(row, predicted, J_p);
   out.J_s = J_s / row.sigma;
+  return out;
+}
+
+/// How far the point moves that the gauge touches, and what friction adds.
+RowResidual push(const Measurement& row, const SessionFrames& frames, const Response* at) {
+  double predicted = row.offset_share * frames.offset;
+  Eigen::RowVectorXd J_p = Eigen::RowVectorXd::Zero(at[0].tangents.cols());
+  for (const int k : {0, 1}) {
+    const Vector3 arm = at[k].X_MT.R * row.gauge;
+    const Eigen::RowVector3d along = (k == 0 ? 1 : -1) * row.direction.transpose();
+    predicted += along * (at[k].X_MT.p + arm);
+    J_p += along * (at[k].tangents.topRows<3>() - skew(arm) * at[k].tangents.bottomRows<3>());
+  }
+  RowResidual out = scalar(row, predicted, J_p);
+  out.J_s(0, 12) = row.offset_share / row.sigma;
   return out;
 }
 
@@ -143,6 +158,7 @@ std::vector<int> unknowns_of(MeasurementKind kind) {
 }
 
 std::vector<int> unknowns_of(const Session& session) {
+  if (session.has_loading && session.has_unloading) return {12};
   return session.has_known_frame ? std::vector<int>{} : unknowns_of(session.kind);
 }
 
@@ -174,8 +190,7 @@ RowResidual residual(const Measurement& row, MeasurementKind kind, const Session
       return feature(row, frames, at);
     case MeasurementKind::static_push:
     case MeasurementKind::hung_weight:
-      return scalar(row, row.direction.dot(at[0].X_MT.p - at[1].X_MT.p),
-                    row.direction.transpose() * (at[0].tangents.topRows<3>() - at[1].tangents.topRows<3>()));
+      return push(row, frames, at);
     case MeasurementKind::axis_position:
       return with_offset(row, row.direction.dot(at[0].X_MT.p - X_MT_nominal[0].p),
                          row.direction.transpose() * at[0].tangents.topRows<3>(), frames);

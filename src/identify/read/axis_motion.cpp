@@ -41,16 +41,22 @@ Directions Axes::directions_between(const Eigen::VectorXd& from, const Eigen::Ve
   return result;
 }
 
+std::optional<Pose> Axes::tip_at(const Eigen::VectorXd& shown) const {
+  const NominalResult found =
+      nominal_forward(model_, model_.home, joint_values(model_.mechanism.shown, shown));
+  if (found.status != Status::converged) return {};
+  return tip(model_.mechanism, found.configuration);
+}
+
 std::optional<Vector3> Axes::direction_of(std::size_t axis, const Eigen::VectorXd& shown) const {
   const double moved = turns(axis) ? probe_angle : probe_length;
   std::array<Pose, 2> X;
   for (const int side : {0, 1}) {
     Eigen::VectorXd at = shown;
     at[static_cast<Eigen::Index>(axis)] += (side - 0.5) * moved;
-    const NominalResult found =
-        nominal_forward(model_, model_.home, joint_values(model_.mechanism.shown, at));
-    if (found.status != Status::converged) return {};
-    X[static_cast<std::size_t>(side)] = tip(model_.mechanism, found.configuration);
+    const std::optional<Pose> there = tip_at(at);
+    if (!there) return {};
+    X[static_cast<std::size_t>(side)] = *there;
   }
   const Vector3 turned = log_so3(X[1].R * X[0].R.transpose()),
                 motion = turns(axis) ? turned : Vector3(X[1].p - X[0].p);

@@ -27,6 +27,9 @@ class Axes {
   Directions directions_between(const Eigen::VectorXd& from, const Eigen::VectorXd& to,
                                 const Directions& before) const;
 
+  /// The nominal tip at shown values. Empty where the machine cannot be there.
+  std::optional<Pose> tip_at(const Eigen::VectorXd& shown) const;
+
   /// The unit vector (axes of M) along which the nominal tip moves with a linear axis at shown values, or
   /// about which it turns with a rotary one, for a growing shown value. Empty where the machine cannot be
   /// there, or the tip does not move as far as the axis: the axis of a leg, one that is coupled.

@@ -40,7 +40,9 @@ std::vector<Unit> list(const std::array<Unit, N>& units) {
 
 const std::vector<Kind>& kinds() {
   static const std::vector<Kind> all = {
-      {{"x", "y", "z", "reading", "length", "radius", "sigma"}, list(lengths)},
+      {{"x", "y", "z", "reading", "length", "radius", "sigma", "gauge_x", "gauge_y", "gauge_z", "force_x",
+        "force_y", "force_z"},
+       list(lengths)},
       {{"rx", "ry", "rz", "sigma_angle"}, list(angles), true},
       {{"position", "deviation", "reversal"}, list(lengths)},
       {{"position", "deviation", "reversal"}, list(angles), true},
@@ -49,7 +51,8 @@ const std::vector<Kind>& kinds() {
       {{"mass"}, list(masses)},
       {{"squareness", "sigma_squareness"}, list(slopes)},
       {{"scale", "sigma_scale"}, list(scales)},
-      {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point"}, list(none)},
+      {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point", "phase"},
+       list(none)},
   };
   return all;
 }
@@ -100,7 +103,7 @@ std::string column_names(const Machine& machine) {
     text += fmt::format("q{}_{}, ", i + 1, all[i].joint.kind == JointKind::revolute ? "deg" : "mm");
   return text +
          "x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm, mass_kg, gx, gy, "
-         "gz, "
+         "gz, gauge_x_mm, gauge_y_mm, gauge_z_mm, force_x_mm, force_y_mm, force_z_mm, phase, "
          "reading_um, length_mm, squareness_um_per_m, axes, axis, direction, position_mm, deviation_um, "
          "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, sigma_mm, sigma_angle_deg, "
          "sigma_squareness_um_per_m, sigma_scale_um_per_m, session, kind (other units: m, um, in, rad, mrad, "

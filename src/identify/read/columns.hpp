@@ -19,9 +19,10 @@ struct Column {
   bool is_angle = false;           ///< its unit is one of angles
 };
 
-/// Quantities by name: "q1" to "q9", "x", "rx", "fx", "mx", "gx", "mass", "reading", "length", "radius",
-/// "sigma", "sigma_angle", "sigma_squareness", "sigma_scale", "squareness", "scale", "position", "deviation",
-/// "reversal", "torque"; texts "session", "kind", "bar", "axes", "axis", "direction", "point".
+/// Quantities by name: "q1" to "q9", "x", "rx", "fx", "mx", "gx", "mass", "gauge_x", "force_x", "reading",
+/// "length", "radius", "sigma", "sigma_angle", "sigma_squareness", "sigma_scale", "squareness", "scale",
+/// "position", "deviation", "reversal", "torque"; texts "session", "kind", "bar", "axes", "axis",
+/// "direction", "point", "phase".
 using Columns = std::map<std::string, Column, std::less<>>;
 
 /// The quantity and unit of a column's name, "q1_deg". Names of actuators, "X_mm" and "A1_deg", are those of

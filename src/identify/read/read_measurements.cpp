@@ -12,6 +12,7 @@
 #include "identify/read/axis_motion.hpp"
 #include "identify/read/description.hpp"
 #include "identify/read/kinds.hpp"
+#include "identify/read/push.hpp"
 #include "identify/read/table.hpp"
 
 namespace counterflex {
@@ -121,16 +122,6 @@ class RowReader {
     return {table_->value_or(x, 0), table_->value_or(y, 0), table_->value_or(z, 0)};
   }
 
-  Vector3 gauge_direction(MeasurementKind kind) const {
-    if (kind == MeasurementKind::hung_weight && !table_->has("gx") && !table_->has("gy") &&
-        !table_->has("gz"))
-      return -Vector3::UnitZ();
-    const Vector3 direction = vector("gx", "gy", "gz");
-    if (!(direction.norm() > 1e-6))
-      table_->fail("", "gx, gy, gz are zero; they must be the direction of the gauge");
-    return direction.normalized();
-  }
-
   /// "+", "-", "up", "down" of all actuators, or of the axis `only`; "+-0+00", a sign for each; "previous":
   /// from the row before.
   Directions directions_of(std::size_t session, const Eigen::VectorXd& shown,
@@ -212,7 +203,7 @@ class RowReader {
   }
 
   /// What was measured at the row's first state.
-  void read_reading(MeasurementKind kind, Measurement& row) const {
+  void read_reading(MeasurementKind kind, Measurement& row) {
     switch (kind) {
       case MeasurementKind::tracker_pose:
         row.X.R = description_.rotation_of(vector("rx", "ry", "rz"));
@@ -222,26 +213,15 @@ class RowReader {
         break;
       case MeasurementKind::static_push:
       case MeasurementKind::hung_weight:
-        read_force(kind, row);
-        [[fallthrough]];
+        read_push(*table_, axes_, weight(), kind, all_.sessions[row.session], row);
+        break;
       case MeasurementKind::axis_position:
-        row.direction = gauge_direction(kind);
+        row.direction = gauge_direction(*table_, kind);
         row.value = table_->value("reading");
         break;
       default:
         break;
     }
-  }
-
-  /// The second state is that without the force.
-  void read_force(MeasurementKind kind, Measurement& row) const {
-    row.states.push_back(row.states[0]);
-    Vector6& F = row.states[0].F;
-    if (kind == MeasurementKind::static_push)
-      F << vector("fx", "fy", "fz"), vector("mx", "my", "mz");
-    else
-      F.head<3>() = table_->value("mass") * weight();
-    if (F.isZero(0)) table_->fail("", "the force is zero");
   }
 
   /// False: the row is the first end of a bar.
