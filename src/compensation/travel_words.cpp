@@ -44,10 +44,13 @@ std::string parts_of(const Travel& axis, const CommandedPlace& at, double value,
 
 std::string outside_travel_words(const Mechanism& named, const CommandedPlace& at) {
   const Mechanism& mechanism = at.model.mechanism;
-  const Pose X_MT{at.R.value_or(tip(mechanism, at.model.home).R), at.target};
-  const NominalResult there = follow(at.model, at.model.home, X_MT);
-  if (there.status != Status::converged) return "an actuator leaves its travel (outside_travel)";
-  const Eigen::VectorXd rho = actuator_values(mechanism, there.configuration);
+  Eigen::VectorXd rho = at.rho;
+  if (rho.size() == 0) {
+    const Pose X_MT{at.R.value_or(tip(mechanism, at.model.home).R), at.target};
+    const NominalResult there = follow(at.model, at.model.home, X_MT);
+    if (there.status != Status::converged) return "an actuator leaves its travel (outside_travel)";
+    rho = actuator_values(mechanism, there.configuration);
+  }
   const auto axis = tightest_axis(mechanism, rho);
   if (!axis || axis->margin >= 0) return "an actuator leaves its travel (outside_travel)";
   const Travel& travel = named.travel[axis->actuator];

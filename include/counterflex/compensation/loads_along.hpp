@@ -149,6 +149,8 @@ struct CommandedPlace {
   long tool = 0;               ///< its number; 0: none known
   Vector3 target;              ///< in M (m)
   std::optional<Matrix3> R{};  ///< its orientation, where the program gives one
+  Eigen::VectorXd
+      rho{};  ///< the actuators there (m, rad), where they are known; else they are those from home
 };
 
 /// "axis Z: 138.0 mm is outside its travel (-300 to 0 mm): ...", with the parts that make up the value where

@@ -184,11 +184,13 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
     return Failure{ErrorKind::not_compensated, line,
                    fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
                    status};
-  if (within_travel(at.model.mechanism, actuator_values(at.model.mechanism, nominal.configuration())))
-    return std::nullopt;
+  CommandedPlace reached = at;
+  reached.rho = actuator_values(at.model.mechanism, nominal.configuration());
+  if (within_travel(at.model.mechanism, reached.rho)) return std::nullopt;
   if (const auto word = ambiguous_integer_word(window, line))
     return Failure{ErrorKind::program_text, word->line, word->what};
-  return Failure{ErrorKind::limit, line, outside_travel_words(base.mechanism, at), 0, Status::outside_travel};
+  return Failure{ErrorKind::limit, line, outside_travel_words(base.mechanism, reached), 0,
+                 Status::outside_travel};
 }
 
 /// The first place, end of a line or on an arc, that the nominal machine does not reach.

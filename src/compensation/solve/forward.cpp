@@ -96,7 +96,8 @@ Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const
   const long tool = at.segment != nullptr ? job.program.moves[at.segment->move].tool : at.piece->tool;
   Failure failure = status_failure(
       job, w.status,
-      {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target, all.requests[s].R}, w.line);
+      {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target, all.requests[s].R, w.rho},
+      w.line);
   failure.corrected_line = w.corrected_line;
   return failure;
 }

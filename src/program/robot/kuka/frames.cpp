@@ -113,8 +113,10 @@ void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
   if (arguments.empty()) return;
   const std::string& what = arguments.front();
   const std::string value = arguments.size() > 1 ? arguments[1] : "";
-  const std::string name = fmt::format("TOOL_DATA[{}]", value);
-  if (what == "#TOOL") select_tool(r, name, !in_body(r), named_pose(r, name));
+  if (what == "#TOOL") {
+    const std::string name = fmt::format("TOOL_DATA[{}]", value);
+    select_tool(r, name, !in_body(r), named_pose(r, name));
+  }
   if (what == "#BASE") {
     const std::string name = fmt::format("BASE_DATA[{}]", value);
     enter_robot_frame(r.robot, {.work_offset = name, .pose_mm = named_pose(r, name)});
