@@ -23,7 +23,7 @@ void leave_out_corrected(Machine& machine) {
   if (corrects(Corrected::gravity)) machine.gravity = {};
   for (Chain& chain : machine.chains)
     for_each_actuator(chain.elements, [&](Actuator& actuator) {
-      if (corrects(Corrected::error_tables)) actuator.errors.reset();
+      if (corrects(Corrected::error_tables)) actuator.errors.reset(), actuator.harmonics.clear();
       if (corrects(Corrected::reversal)) actuator.reversal.reset();
     });
 }

@@ -1,6 +1,7 @@
 #include "counterflex/machine/machine.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "machine/walk.hpp"
 
@@ -11,7 +12,7 @@ void make_perfect(std::vector<Element>& elements) {
   for (Element& element : elements) {
     if (auto* error = std::get_if<AssemblyError>(&element)) error->X = Pose{};
     if (auto* actuator = std::get_if<Actuator>(&element))
-      actuator->errors.reset(), actuator->reversal.reset();
+      actuator->errors.reset(), actuator->reversal.reset(), actuator->harmonics.clear();
     if (auto* group = std::get_if<Group>(&element))
       for (Branch& branch : group->branches) make_perfect(branch.elements);
   }
@@ -27,6 +28,13 @@ void collect(const std::vector<Element>& elements, std::vector<Actuator>& found)
 }
 
 }  // namespace
+
+double largest_harmonic(const Actuator& actuator) {
+  double most = 0;
+  for (std::size_t k = 0; k + 1 < actuator.harmonics.size(); k += 2)
+    most = std::max(most, std::hypot(actuator.harmonics[k], actuator.harmonics[k + 1]));
+  return most;
+}
 
 bool controls(const Machine& machine, Component component) {
   const auto& list = machine.controlled;

@@ -20,6 +20,8 @@ constexpr std::array<std::string_view, 6> error_units = {"x_mm",   "y_mm",   "z_
 constexpr std::array<std::string_view, 6> spring_units = {"x_m_per_N",     "y_m_per_N",     "z_m_per_N",
                                                           "rx_rad_per_Nm", "ry_rad_per_Nm", "rz_rad_per_Nm"};
 
+constexpr std::array<std::string_view, 4> harmonic_names = {"sin", "cos", "sin2", "cos2"};
+
 /// (p, Log R): the six components of an assembly error.
 Vector6 components(const Pose& X) {
   Vector6 c;
@@ -37,12 +39,37 @@ double mean_compliance(const Matrix6& K) {
   return lu.isInvertible() ? lu.inverse().diagonal().head<3>().mean() : 0;
 }
 
+/// The error of a table's position along or about the actuator's axis (m or rad).
+double axis_error(const Actuator& actuator, int position) {
+  const Vector6& error = actuator.errors->errors[static_cast<std::size_t>(position)];
+  return actuator.joint.axis.dot(actuator.joint.kind == JointKind::prismatic ? Vector3(error.head<3>())
+                                                                             : Vector3(error.tail<3>()));
+}
+
+double read(const Actuator& actuator, const ParameterPlace& place) {
+  if (place.kind == ParameterKind::reversal) return *actuator.reversal;
+  if (place.kind == ParameterKind::table) return axis_error(actuator, place.component);
+  return actuator.harmonics[static_cast<std::size_t>(place.component)];
+}
+
+/// Other components of a table's error stay.
+void write(Actuator& actuator, const ParameterPlace& place, double value) {
+  if (place.kind == ParameterKind::reversal)
+    actuator.reversal = value;
+  else if (place.kind == ParameterKind::harmonic)
+    actuator.harmonics[static_cast<std::size_t>(place.component)] = value;
+  else
+    actuator.errors->errors[static_cast<std::size_t>(place.component)].segment<3>(
+        actuator.joint.kind == JointKind::prismatic ? 0 : 3) +=
+        (value - axis_error(actuator, place.component)) * actuator.joint.axis;
+}
+
 double read(const ParameterPlace& place) {
   const int i = place.component;
   if (const auto* error = std::get_if<AssemblyError>(place.element)) return components(error->X)[i];
   if (const auto* joint = std::get_if<Compliance>(place.element)) return 1 / joint->stiffness;
   if (const auto* mass = std::get_if<PointMass>(place.element)) return mass->kg;
-  if (const auto* actuator = std::get_if<Actuator>(place.element)) return *actuator->reversal;
+  if (const auto* actuator = std::get_if<Actuator>(place.element)) return read(*actuator, place);
   const auto& spring = std::get<Spring>(*place.element);
   return i >= 0 ? 1 / spring.K(i, i) : mean_compliance(spring.K);
 }
@@ -59,7 +86,7 @@ void write(const ParameterPlace& place, double value) {
   } else if (auto* mass = std::get_if<PointMass>(place.element)) {
     mass->kg = value;
   } else if (auto* actuator = std::get_if<Actuator>(place.element)) {
-    actuator->reversal = value;
+    write(*actuator, place, value);
   } else if (auto& spring = std::get<Spring>(*place.element); i >= 0) {
     spring.K(i, i) = 1 / value;
   } else {
@@ -95,7 +122,7 @@ class Lister {
         const int count = ++springs[spring->name];
         add_spring(element, prefix + spring->name + (count == 1 ? "" : fmt::format("({})", count)));
       } else if (std::holds_alternative<Actuator>(element)) {
-        add_reversal(element);
+        add_motion(element);
       } else if (auto* group = std::get_if<Group>(&element)) {
         for (Branch& branch : group->branches) add(branch.elements, prefix + branch.name + ".");
       }
@@ -104,15 +131,24 @@ class Lister {
 
  private:
   /// "axis X" is X, "chain a" is a, "actuator 3" is J3.
-  void add_reversal(Element& element) {
+  void add_motion(Element& element) {
     const auto& actuator = std::get<Actuator>(element);
     if (actuator.program_axis > 0) return;
-    const std::string& name = actuators_[next_actuator_++];
-    if (!actuator.reversal) return;
+    const std::string& full = actuators_[next_actuator_++];
+    const std::string name = (full.starts_with("actuator ") ? "J" : "") + full.substr(full.find(' ') + 1);
     const bool turns = actuator.joint.kind == JointKind::revolute;
-    list_.push_back({(name.starts_with("actuator ") ? "J" : "") + name.substr(name.find(' ') + 1) +
-                         (turns ? ".reversal_mdeg" : ".reversal_um"),
-                     ParameterKind::reversal, turns ? 1e-3 * deg : um, &element});
+    const auto add = [&](const std::string& what, ParameterKind kind, int component) {
+      list_.push_back({name + "." + what + (turns ? "_mdeg" : "_um"), kind, turns ? 1e-3 * deg : um, &element,
+                       component});
+    };
+    if (actuator.reversal) add("reversal", ParameterKind::reversal, -1);
+    for (std::size_t i = 0; i < actuator.harmonics.size(); ++i)
+      add(std::string(harmonic_names[i]), ParameterKind::harmonic, static_cast<int>(i));
+    if (!actuator.errors || !actuator.errors->sigma) return;
+    const std::vector<double>& positions = actuator.errors->positions;
+    for (std::size_t i = 0; i < positions.size(); ++i)
+      add(fmt::format("error[{:.9g}]", positions[i] / (turns ? deg : mm)), ParameterKind::table,
+          static_cast<int>(i));
   }
 
   void add_spring(Element& element, const std::string& name) {
@@ -143,7 +179,7 @@ std::vector<ParameterPlace> parameter_places(Machine& machine) {
   std::map<std::string, int> seen;  // branches used twice in one chain
   for (ParameterPlace& place : list)
     if (const int count = ++seen[place.name]; count > 1)
-      place.name.insert(place.name.rfind('.'), fmt::format("({})", count));
+      place.name.insert(place.name.rfind('.', place.name.find('[')), fmt::format("({})", count));
   return list;
 }
 

@@ -22,6 +22,7 @@ constexpr double shortest_tool = 10 * mm;   // from the gauge line of the spindl
 constexpr double shortest_reach = 10 * mm;  // the largest length of the whole file
 constexpr double largest_error_angle = 10 * deg, largest_error = 50 * mm;      // of assembly
 constexpr double largest_axis_error = 2 * mm, largest_axis_angle = 0.3 * deg;  // of tables
+constexpr double largest_harmonic_angle = 0.3 * deg;
 constexpr double thinnest_tool = 0.05 * mm, thickest_tool = 500 * mm;
 constexpr double same_angle_deg = 2e-3;  // 3.14 is as near to pi as this
 constexpr double weakest_force_N = 1, strongest_force_N = 1e5;
@@ -88,6 +89,11 @@ struct Seen {
   }
   void operator()(const Actuator& e) {
     limits(e.min, e.max, e.joint.kind, fmt::format("an actuator of {}", where));
+    if (const double most = largest_harmonic(e); most > largest_harmonic_angle)
+      add(
+          fmt::format("an actuator of {} has a harmonic of {} deg; those of joints have up to some 0.05 deg: "
+                      "harmonics_mdeg is in 0.001 deg",
+                      where, number(most / deg)));
     if (!e.errors) return;
     for (const Vector6& error : e.errors->errors) {
       const double length = error.head<3>().cwiseAbs().maxCoeff(),

@@ -144,3 +144,42 @@ TEST_CASE("the reversal of an actuator is a parameter by the name of its axis, a
   const Machine other = with_parameters(machine, {1e-5, list[1].value});
   CHECK(*std::get<Actuator>(other.chains[0].elements[1]).reversal == 1e-5);
 }
+
+TEST_CASE("harmonics, and the errors of a table that states their deviation, are parameters of their axis") {
+  const std::string text = R"(
+format = "counterflex-machine 1"
+[error_tables.x]
+positions_mm = [-50, 0, 33.5]
+EXX_um = [1, 2, 3]
+EYX_um = [7, 8, 9]
+sigma_um = 4
+[error_tables.y]
+positions_mm = [0, 10]
+EYY_um = [1, 2]
+[[chain]]
+name = "axes"
+elements = [
+  { actuator = "prismatic", axis = [-1, 0, 0], error_table = "x" },
+  { actuator = "prismatic", axis = "y", error_table = "y" },
+  { actuator = "revolute", axis = "z", harmonics_mdeg = [0, 5] },
+]
+)";
+  const Machine machine = read_machine(text, "axes.toml");
+  const std::vector<Parameter> list = parameters(machine);
+  std::vector<std::string> names;
+  std::vector<double> values;
+  for (const Parameter& parameter : list) {
+    names.push_back(parameter.name);
+    values.push_back(parameter.value);
+  }
+  CHECK(names == std::vector<std::string>{"X.error[-50]_um", "X.error[0]_um", "X.error[33.5]_um",
+                                          "C.sin_mdeg", "C.cos_mdeg"});
+  CHECK(values[0] / 1e-6 == doctest::Approx(-1));  // along the axis
+  CHECK(values[4] / deg == doctest::Approx(5e-3));
+  values[2] = 6e-6, values[3] = 1e-4;
+  const std::vector<Actuator> changed = actuators(with_parameters(machine, values));
+  CHECK((changed[0].errors->errors[2].head<3>() - Vector3(-6e-6, 9e-6, 0)).norm() < 1e-18);
+  CHECK(changed[2].harmonics[0] == 1e-4);
+  CHECK(largest_harmonic(changed[2]) == doctest::Approx(std::hypot(1e-4, values[4])));
+  CHECK(actuators(perfect(machine))[2].harmonics.empty());
+}

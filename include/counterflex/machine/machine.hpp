@@ -96,6 +96,9 @@ struct ErrorTable {
   std::string name;
   std::vector<double> positions{};  ///< shown values, increasing, two or more (m or rad)
   std::vector<Vector6> errors{};    ///< there: translation (m), rotation vector (rad)
+  /// Standard deviation of the error along or about the axis at each position (m or rad). These errors are
+  /// parameters only if it is stated.
+  std::optional<double> sigma{};
 };
 
 /// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
@@ -112,6 +115,10 @@ struct Actuator {
   /// Lost motion, not negative (m or rad): the joint lags behind its value by half of it, against the
   /// direction in which it moves.
   std::optional<double> reversal{};
+  /// Of a rotary actuator that shows q (without coupled values) and turns by
+  /// q + a1 sin q + b1 cos q + a2 sin 2q + b2 cos 2q: a1, b1, a2, b2 (rad). Empty, two or four numbers; not
+  /// together with `errors`.
+  std::vector<double> harmonics{};
 };
 
 /// A joint that moves freely, or against `stiffness` (N/m or N m/rad) with energy 1/2 k (q - rest)^2.
@@ -304,7 +311,7 @@ bool controls(const Machine& machine, Component component);
 /// Whether it lists all six.
 bool controls_pose(const Machine& machine);
 
-/// The machine without its assembly errors, error tables and reversal errors.
+/// The machine without its assembly errors, error tables, harmonics and reversal errors.
 Machine perfect(const Machine& machine);
 
 /// What a thermal table gives at a temperature (degrees Celsius) inside of it.
@@ -324,6 +331,9 @@ double total_mass(const Machine& machine);
 
 /// Whether weights act on it: there are masses, those of tools included, and something pulls at them.
 bool weighs(const Machine& machine);
+/// The largest amplitude of the actuator's harmonics (rad); 0 without.
+double largest_harmonic(const Actuator& actuator);
+
 /// All numbered actuators in their order.
 std::vector<Actuator> actuators(const Machine& machine);
 

@@ -12,7 +12,7 @@ struct ParameterPlace {
   ParameterKind kind = ParameterKind::position;
   double unit = 1;
   Element* element = nullptr;
-  int component = -1;  ///< of an error, or of a spring with a diagonal stiffness; else -1
+  int component = -1;  ///< of an error, a spring with a diagonal stiffness, harmonics, a table; else -1
 };
 
 /// In the order of `parameters`. The places point into `machine`.

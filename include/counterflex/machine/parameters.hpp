@@ -1,6 +1,7 @@
 #pragma once
 /// The parameters of a machine: the numbers that measurements can identify, each with a name. They are the
-/// components of assembly errors, compliances, masses, and the reversals of actuators.
+/// components of assembly errors, compliances, masses, and of actuators the reversals, the harmonics, and the
+/// positioning errors of tables whose deviation is stated.
 ///
 /// Names. In a machine of one chain "mount.x_mm", else "CHAIN.mount.x_mm"; inside a branch of a group the
 /// branch's name is in front, too. "mount" is an error slot (x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg: the
@@ -9,7 +10,8 @@
 /// "foot.rz_rad_per_Nm" for its finite compliances; another has one, "foot.compliance_m_per_N": the mean of
 /// the first three on the diagonal, which scales the whole matrix. A reversal is "X.reversal_um",
 /// "A1.reversal_mdeg" or "CHAIN.reversal_um": the axis or the chain as `actuator_names` has it; without such
-/// a name "J3.reversal_um".
+/// a name "J3.reversal_um". Harmonics are "A1.sin_mdeg", "A1.cos_mdeg", "A1.sin2_mdeg", "A1.cos2_mdeg"; the
+/// error at the position 100 mm or deg of a table is "X.error[100]_um" or "C.error[100]_mdeg".
 #include <string>
 #include <vector>
 
@@ -17,7 +19,7 @@
 
 namespace counterflex {
 
-enum class ParameterKind { position, orientation, compliance, mass, reversal };
+enum class ParameterKind { position, orientation, compliance, mass, reversal, table, harmonic };
 
 struct Parameter {
   std::string name;

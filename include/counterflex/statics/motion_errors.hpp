@@ -5,14 +5,16 @@
 
 namespace counterflex {
 
-/// Errors as functions of the actuator's value: a cubic between knots, constant outside.
+/// Errors as functions of the actuator's value: a cubic between knots, constant outside; or harmonics.
 struct MotionErrors {
   using Six = std::array<double, 6>;  ///< translation (m), rotation vector (rad); axes of the frame before
 
   std::vector<double> rho{};          ///< knots, increasing (m, rad); empty: no errors
   std::vector<Six> value{}, slope{};  ///< at them; slopes per m or rad
 
-  bool empty() const { return rho.empty(); }
+  std::vector<double> harmonics{};  ///< a1, b1, ...: the sum of an sin n rho + bn cos n rho, about the axis
+
+  bool empty() const { return rho.empty() && harmonics.empty(); }
 };
 
 }  // namespace counterflex

@@ -91,6 +91,8 @@ std::string phrase_errors(const Actuator& actuator) {
   if (const auto& table = actuator.errors)
     text = fmt::format("errors of table {} ({})", table->name,
                        phrase_range(actuator.joint, table->positions.front(), table->positions.back()));
+  if (const double most = largest_harmonic(actuator); most > 0)
+    text = fmt::format("harmonics of {:.3g} mdeg", most / (1e-3 * deg));
   if (!actuator.reversal) return text;
   const bool linear = actuator.joint.kind == JointKind::prismatic;
   return text + fmt::format("{}reversal {:.9g} {}", text.empty() ? "" : ", ",

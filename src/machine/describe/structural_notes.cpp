@@ -146,8 +146,9 @@ bool has_errors(const Machine& machine) {
   bool any = false;
   for_each<AssemblyError>(
       machine, [&](const Chain&, const AssemblyError& error) { any = any || !is_identity(error.X); });
-  for_each<Actuator>(
-      machine, [&](const Chain&, const Actuator& a) { any = any || a.errors || a.reversal.value_or(0) > 0; });
+  for_each<Actuator>(machine, [&](const Chain&, const Actuator& a) {
+    any = any || a.errors || a.reversal.value_or(0) > 0 || largest_harmonic(a) > 0;
+  });
   return any;
 }
 

@@ -119,6 +119,24 @@ class ComponentReader {
   std::array<std::string_view, 6> given_{};
 };
 
+/// The optional key sigma_UNIT: how well the errors of the axis' own motion are known.
+std::optional<double> read_sigma(const toml::table& table, JointKind kind, std::string_view owner,
+                                 const Source& source) {
+  std::vector<std::string> keys;
+  for (const ErrorUnit& unit : error_units)
+    if (unit.is_angle == (kind == JointKind::revolute)) keys.push_back(fmt::format("sigma_{}", unit.name));
+  for (const auto& [key, value] : table)
+    if (key.str().starts_with("sigma_") && std::find(keys.begin(), keys.end(), key.str()) == keys.end())
+      source.fail(key, fmt::format("unknown key \"{}\" in {}; use one of {}", key.str(), owner,
+                                   fmt::join(keys, ", ")));
+  const std::string_view form = one_of(table, {keys.begin(), keys.end()}, owner, source);
+  if (form.empty()) return {};
+  for (const ErrorUnit& unit : error_units)
+    if (unit.name == form.substr(form.find('_') + 1))
+      return as_positive(*table.get(form), {form}, {source}) * unit.si;
+  return {};
+}
+
 }  // namespace
 
 KindedTable read_error_table(const toml::node& node, const std::string& name, const Source& source) {
@@ -132,10 +150,11 @@ KindedTable read_error_table(const toml::node& node, const std::string& name, co
   KindedTable result{{name}, kind};
   result.table.positions =
       read_positions(*table.get(form), form, kind == JointKind::prismatic ? mm : deg, source);
+  result.table.sigma = read_sigma(table, kind, owner, source);
   ComponentReader components(owner, form, source, result.table);
   std::vector<std::pair<const toml::key*, const toml::node*>> entries;
   for (const auto& [key, value] : table)
-    if (key.str() != form) entries.emplace_back(&key, &value);
+    if (key.str() != form && !key.str().starts_with("sigma_")) entries.emplace_back(&key, &value);
   std::ranges::sort(
       entries, [](const auto& a, const auto& b) { return before(a.first->source(), b.first->source()); });
   for (const auto& [key, value] : entries) components.read(*key, *value);

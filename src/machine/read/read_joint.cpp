@@ -129,6 +129,25 @@ void read_reversal(const toml::table& table, const JointKeys& keys, std::string_
   actuator.reversal = as_not_negative(*table.get(form), {form}, reading) * unit;
 }
 
+/// a1, b1 and perhaps a2, b2 in 0.001 deg.
+void read_harmonics(const toml::table& table, std::string_view owner, const Reading& reading,
+                    Actuator& actuator) {
+  const toml::node* node = table.get("harmonics_mdeg");
+  if (node == nullptr) return;
+  for (const std::string_view other : {"program_axis", "error_table"})
+    if (table.contains(other))
+      reading.source.fail(
+          key_of(table, "harmonics_mdeg"),
+          fmt::format("{} has both harmonics_mdeg and {}; an axis has one of them", owner, other));
+  const toml::array& list = as_array(*node, "harmonics_mdeg", reading.source);
+  if (list.size() != 2 && list.size() != 4)
+    reading.source.fail(*node, fmt::format("harmonics_mdeg has {} values; it needs 2, of sin q and cos q, or "
+                                           "4, with those of sin 2q and cos 2q",
+                                           list.size()));
+  for (std::size_t i = 0; i < list.size(); ++i)
+    actuator.harmonics.push_back(as_number(list[i], {"harmonics_mdeg", i + 1}, reading) * 1e-3 * deg);
+}
+
 void read_preload(Passive& passive, const toml::table& table, const JointKeys& keys, std::string_view owner,
                   const Reading& reading) {
   const std::string_view form = one_of(table, {"preload", keys.preload}, owner, reading.source);
@@ -177,6 +196,7 @@ Actuator read_actuator(const toml::table& table, const Reading& reading, Actuato
   std::vector<std::string_view> allowed = {"actuator", "axis",        keys.min, keys.max,
                                            keys.home,  "error_table", "mass"};
   allowed.insert(allowed.end(), keys.reversal.begin(), keys.reversal.end());
+  if (keys.kind == JointKind::revolute) allowed.push_back("harmonics_mdeg");
   for (const std::string_view key : shown_keys(keys.kind)) allowed.push_back(key);
   check_keys(table, allowed, owner, reading.source);
   Actuator actuator;
@@ -185,6 +205,7 @@ Actuator read_actuator(const toml::table& table, const Reading& reading, Actuato
   actuator.home = joint_value(table, keys.home, keys, 0, reading);
   read_shown(table, reading, before, actuator);
   read_reversal(table, keys, owner, reading, actuator);
+  read_harmonics(table, owner, reading, actuator);
   return actuator;
 }
 

@@ -9,6 +9,8 @@
 namespace counterflex {
 namespace {
 
+constexpr double spacing_of_harmonic = pi / 6;  // a twelfth of its period, as if these were knots
+
 struct Numbering {
   int next_actuator = 0;
   std::vector<Travel>& travel;
@@ -43,7 +45,7 @@ struct Compiler {
     if (e.program_axis > 0) return {.kind = PartKind::fixed, .X = displacement(e.joint, e.home)};
     Part part{
         .kind = PartKind::actuator, .joint = e.joint, .home = e.home, .actuator = numbering.next_actuator++};
-    if (e.errors) part.errors = motion_errors(*e.errors, e.shown);
+    part.errors = motion_errors(e);
     numbering.travel.push_back({e.min, e.max, e.joint.kind});
     series.actuators.push_back(part.actuator);
     joint_column(part);
@@ -120,6 +122,8 @@ void note_spacing(const Series& series, Mechanism& mechanism) {
         part.joint.kind == JointKind::prismatic ? mechanism.error_spacing : mechanism.error_spacing_angle;
     for (std::size_t k = 1; k < part.errors.rho.size(); ++k)
       least = std::min(least, part.errors.rho[k] - part.errors.rho[k - 1]);
+    if (const std::size_t orders = part.errors.harmonics.size() / 2; orders > 0)
+      least = std::min(least, spacing_of_harmonic / static_cast<double>(orders));
   }
   for (const SeriesGroup& group : series.groups)
     for (const Series& branch : group.branches) note_spacing(branch, mechanism);

@@ -5,6 +5,7 @@
 
 #include "counterflex/machine/parameter_places.hpp"
 #include "statics/model/home.hpp"
+#include "statics/model/motion_errors.hpp"
 #include "statics/model/part.hpp"
 #include "statics/model/tip.hpp"
 #include "statics/model/tolerances.hpp"
@@ -24,7 +25,8 @@ struct VariedParameter {
   double value = 0;   ///< SI
   int component = 0;  ///< of an error or a diagonal spring; -1: one parameter scales the whole spring
   PartPlace at{};
-  Mechanism heavier{};  ///< of a mass: with 1 kg more
+  Mechanism heavier{};        ///< of a mass: with 1 kg more
+  MotionErrors unit_error{};  ///< of harmonics and tables
 };
 
 namespace {
@@ -88,6 +90,27 @@ void add_force_change(const VariedParameter& varied, const WholeSystem& system, 
   }
 }
 
+/// Of an actuator whose only error is one unit of a parameter. Errors are linear in harmonics, and in the
+/// values of tables that have deviations.
+MotionErrors unit_error(const ParameterPlace& place) {
+  Actuator actuator = std::get<Actuator>(*place.element);
+  const auto i = static_cast<std::size_t>(place.component);
+  if (place.kind == ParameterKind::harmonic) {
+    std::fill(actuator.harmonics.begin(), actuator.harmonics.end(), 0);
+    actuator.harmonics[i] = 1;
+    return motion_errors(actuator);
+  }
+  for (Vector6& error : actuator.errors->errors) error.setZero();
+  actuator.errors->errors[i].segment<3>(actuator.joint.kind == JointKind::prismatic ? 0 : 3) =
+      actuator.joint.axis;
+  return motion_errors(actuator);
+}
+
+/// How far an actuator at a value moves in all while its command moves by one.
+double motion_by_command(const Part& actuator, double value) {
+  return actuator.errors.empty() ? 1 : 1 + error_along(actuator.joint, actuator.errors, value).slope;
+}
+
 /// Deflections of the springs and compliances of all series, by first variable of the part.
 void collect_deflections(const Series& series, const SeriesState& state, const Stage& stage, int& variable,
                          std::map<int, Eigen::VectorXd>& deflections) {
@@ -124,8 +147,8 @@ struct ParameterTangents::Impl {
   Machine machine;  ///< varied errors are springs without stiffness: their coordinates are the parameters
   Model model;      ///< of that machine; it has no home
   std::vector<VariedParameter> varied;
-  std::vector<int> actuators;  ///< their variables
-  Eigen::MatrixXd offsets;     ///< actuators x varied: tangents of zeros that were set under weight
+  std::vector<PartPlace> actuators;
+  Eigen::MatrixXd offsets;  ///< actuators x varied: tangents of zeros that were set under weight
 
   Configuration configuration(const Configuration& found) const {
     Configuration result{found.X_MP, {}};
@@ -155,8 +178,7 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
                 places);
   impl_->actuators.resize(mechanism.travel.size());
   for (const auto& [element, place] : places)
-    if (place.part->actuator >= 0)
-      impl_->actuators[static_cast<std::size_t>(place.part->actuator)] = place.variable;
+    if (place.part->actuator >= 0) impl_->actuators[static_cast<std::size_t>(place.part->actuator)] = place;
   impl_->offsets.setZero(static_cast<Eigen::Index>(mechanism.travel.size()),
                          static_cast<Eigen::Index>(varied.size()));
   for (const std::size_t index : varied) {
@@ -173,6 +195,8 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
     const bool holds_zero = place.kind == ParameterKind::compliance || place.kind == ParameterKind::mass;
     if (machine.gravity.true_at_home && holds_zero)
       impl_->offsets.col(static_cast<Eigen::Index>(impl_->varied.size())) = offset_tangent(machine, index);
+    if (place.kind == ParameterKind::table || place.kind == ParameterKind::harmonic)
+      entry.unit_error = unit_error(place);
     impl_->varied.push_back(std::move(entry));
   }
 }
@@ -208,6 +232,7 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
     collect_deflections(impl.model.mechanism.chains[i], configuration.chains[i], stage, variable,
                         deflections);
 
+  const Eigen::VectorXd values = actuator_values(impl.plain, found);
   HeldSteps steps;
   steps.is_held.assign(system.variables.size(), false);
   const auto n = static_cast<Eigen::Index>(impl.varied.size());
@@ -223,10 +248,18 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
       add_force_change(varied, system, units, deflections.at(first), steps.gradient.col(k));
     else if (varied.kind == ParameterKind::reversal)
       steps.held(first, k) = -0.5;
-    else
+    else if (!varied.unit_error.empty()) {
+      const double value = values[varied.at.part->actuator];
+      steps.held(first, k) = error_along(varied.at.part->joint, varied.unit_error, value).error /
+                             motion_by_command(*varied.at.part, value);
+    } else
       steps.held(first + varied.component, k) = 1;
-    for (std::size_t a = 0; a < impl.actuators.size(); ++a)
-      steps.held(impl.actuators[a], k) += impl.offsets(static_cast<Eigen::Index>(a), k);
+    // Offsets do not move the place in a table.
+    for (std::size_t a = 0; a < impl.actuators.size(); ++a) {
+      const auto i = static_cast<Eigen::Index>(a);
+      steps.held(impl.actuators[a].variable, k) +=
+          impl.offsets(i, k) / motion_by_command(*impl.actuators[a].part, values[i]);
+    }
     if (varied.kind == ParameterKind::position || varied.kind == ParameterKind::orientation)
       for (int i = 0; i < 6; ++i) steps.is_held[static_cast<std::size_t>(first + i)] = true;
   }

@@ -69,6 +69,23 @@ TEST_CASE("between positions a table is continuous, and so is its slope, which i
   }
 }
 
+TEST_CASE("a table with deviations is linear in its values, with a continuous slope that is its derivative") {
+  const auto stated = [](const std::vector<double>& errors) {
+    ErrorTable table = table_of({-0.2, 0, 0.05, 0.3}, errors);
+    table.sigma = 1e-5;
+    return motion_errors(table, {});
+  };
+  const MotionErrors a = stated({1e-5, 3e-5, 2e-5, 4e-5}), b = stated({0, -1e-5, 5e-5, 1e-5}),
+                     sum = stated({2e-5, 5e-5, 9e-5, 9e-5});  // 2 a + b
+  for (const double rho : {-0.2, -0.11, 0.03, 0.05, 0.2, 0.29}) {
+    CAPTURE(rho);
+    CHECK(at(sum, rho).first == doctest::Approx(2 * at(a, rho).first + at(b, rho).first).epsilon(1e-9));
+    const double slope = central_difference([&](double h) { return at(a, rho + h).first; }, 1e-5);
+    if (rho > -0.2) CHECK(std::abs(at(a, rho).second - slope) < 1e-7);
+  }
+  CHECK(at(a, 0.05 - 1e-12).second == doctest::Approx(at(a, 0.05 + 1e-12).second).epsilon(1e-6));
+}
+
 TEST_CASE("a table has no extremes between its positions, and reproduces straight lines") {
   Random random(4);
   const ErrorTable table = random_table(random, 1);
@@ -97,6 +114,30 @@ TEST_CASE("positions of a table are shown values") {
     CHECK(at(errors, rho).first == doctest::Approx(at(plain, s).first).epsilon(1e-9));
     CHECK(at(errors, rho).second == doctest::Approx(-at(plain, s).second).epsilon(1e-9));
   }
+}
+
+TEST_CASE("harmonics turn a rotary axis about itself by their sum at the shown value, in its sense") {
+  Actuator actuator;
+  actuator.joint = {JointKind::revolute, Vector3(0, 0.6, 0.8)};
+  actuator.harmonics = {1e-4, -2e-4, 3e-5, 5e-5};
+  for (const double sign : {1.0, -1.0}) {
+    actuator.shown = {sign, 0.4, {}};
+    const MotionErrors errors = motion_errors(actuator);
+    for (const double rho : {-7.0, -0.3, 0.0, 1.1, 5.0}) {
+      CAPTURE(rho);
+      const double s = sign * rho + 0.4;
+      const double turn =
+          1e-4 * std::sin(s) - 2e-4 * std::cos(s) + 3e-5 * std::sin(2 * s) + 5e-5 * std::cos(2 * s);
+      const JointMotion motion = joint_motion(actuator.joint, errors, rho, rho, 1);
+      CHECK((motion.X.R - exp_so3((rho + sign * turn) * actuator.joint.axis)).norm() < 1e-14);
+      CHECK(motion.X.p.isZero(0));
+      const double slope = central_difference(
+          [&](double h) { return error_along(actuator.joint, errors, rho + h).error; }, 1e-4);
+      CHECK((motion.w - (1 + slope) * actuator.joint.axis).norm() < 1e-11);
+    }
+  }
+  actuator.harmonics = {0, 0};
+  CHECK(motion_errors(actuator).empty());
 }
 
 TEST_CASE("errors of a rotary axis are in the axes of the frame before it") {

@@ -73,6 +73,29 @@ Machine sample(const std::string& name) {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/" + name + "/machine.toml");
 }
 
+Machine with_positioning_errors(Machine machine) {
+  for (Element& element : machine.chains[0].elements)
+    if (auto* actuator = std::get_if<Actuator>(&element)) {
+      actuator->errors = ErrorTable{"t", {-0.3, -0.1, 0.01, 0.1, 0.4}, {}, 1e-5};
+      for (const double error : {-1e-5, 2e-5, 3e-5, 7e-5, 4e-5}) {
+        actuator->errors->errors.push_back(Vector6::Zero());
+        actuator->errors->errors.back().head<3>() = error * actuator->joint.axis;
+      }
+    }
+  return machine;
+}
+
+Machine with_harmonics(Machine machine) {
+  double size = 1e-4;
+  for (Element& element : machine.chains[0].elements)
+    if (auto* actuator = std::get_if<Actuator>(&element)) {
+      actuator->harmonics = {size, -2 * size, 0.5 * size, size};
+      actuator->shown = {-1, 0.3, {}};
+      size += 3e-5;
+    }
+  return machine;
+}
+
 }  // namespace
 
 TEST_CASE("tangents of the tip by parameters are central differences of solved machines") {
@@ -104,6 +127,12 @@ TEST_CASE("tangents of the tip by parameters are central differences of solved m
   }
   SUBCASE("a milling machine") {
     check_tangents(sample("mill3"));
+  }
+  SUBCASE("a milling machine with positioning errors that are parameters") {
+    check_tangents(with_positioning_errors(sample("mill3")));
+  }
+  SUBCASE("a robot whose joints have harmonics") {
+    check_tangents(with_harmonics(sample("robot-ur10")));
   }
 }
 
