@@ -14,8 +14,16 @@ namespace {
 
 constexpr double least_share = 1e-3;  // of a compliance or mass: the lower bound of the fit
 
-bool is_geometry(ParameterKind kind) {
-  return kind == ParameterKind::position || kind == ParameterKind::orientation;
+double least_value(const Parameter& parameter) {
+  switch (parameter.kind) {
+    case ParameterKind::compliance:
+    case ParameterKind::mass:
+      return least_share * parameter.value;
+    case ParameterKind::reversal:
+      return 0;
+    default:
+      return -std::numeric_limits<double>::infinity();
+  }
 }
 
 /// By parameter: whether it moves the zero of the actuator just before its error slot.
@@ -54,10 +62,20 @@ bool is_in(ParameterSet set, const std::vector<ParameterSet>& sets) {
 }
 
 ParameterSet set_of(const Parameter& parameter, bool is_zero) {
-  if (parameter.kind == ParameterKind::compliance) return ParameterSet::compliance;
-  if (parameter.kind == ParameterKind::mass) return ParameterSet::mass;
-  if (parameter.kind == ParameterKind::reversal) return ParameterSet::reversal;
-  return is_zero ? ParameterSet::zeros : ParameterSet::geometry;
+  switch (parameter.kind) {
+    case ParameterKind::compliance:
+      return ParameterSet::compliance;
+    case ParameterKind::mass:
+      return ParameterSet::mass;
+    case ParameterKind::reversal:
+      return ParameterSet::reversal;
+    case ParameterKind::table:
+      return ParameterSet::tables;
+    case ParameterKind::harmonic:
+      return ParameterSet::harmonics;
+    default:
+      return is_zero ? ParameterSet::zeros : ParameterSet::geometry;
+  }
 }
 
 bool has_directions(const Measurements& measurements) {
@@ -94,9 +112,7 @@ Candidates candidates(const Machine& machine, const Measurements& measurements,
     result.is_default.push_back(known.is_default);
     before.push_back(all[i].value);
     prior.push_back(known.sigma);
-    least.push_back(is_geometry(all[i].kind)                 ? -std::numeric_limits<double>::infinity()
-                    : all[i].kind == ParameterKind::reversal ? 0
-                                                             : least_share * all[i].value);
+    least.push_back(least_value(all[i]));
   }
   const auto n = static_cast<Eigen::Index>(before.size());
   result.before = Eigen::Map<Eigen::VectorXd>(before.data(), n);

@@ -1,12 +1,16 @@
 #include "counterflex/identify/identify.hpp"
 
 #include <Eigen/Cholesky>
+#include <algorithm>
+#include <optional>
 
 #include "identify/candidates.hpp"
 #include "identify/checks.hpp"
 #include "identify/fit/fit.hpp"
 #include "identify/fit/frames.hpp"
 #include "identify/ladder.hpp"
+#include "identify/noise.hpp"
+#include "identify/ranges.hpp"
 #include "identify/result.hpp"
 
 namespace counterflex {
@@ -44,35 +48,51 @@ bool is_covariance(const Eigen::MatrixXd& matrix) {
 Identification identify(const Machine& machine, const Measurements& measurements,
                         const IdentifyOptions& options) {
   check_sessions(measurements);
+  check_repeats(measurements);
   const States states = nominal_states(machine, measurements, options.threads);
   const Candidates candidate = candidates(machine, measurements, options.sets, options.prior);
   if (candidate.varied.empty())
     throw InputError(ErrorKind::machine_or_force, {},
-                     "the machine file has no parameter of the sets to fit; add error slots or compliances");
+                     "the machine file has no parameter of the sets to fit; add error slots, compliances, "
+                     "harmonics_mdeg of joints or sigma_um of error tables");
   const FitProblem problem{
       machine,          measurements,    states,          states.X_MT,           candidate.varied,
       candidate.before, candidate.prior, candidate.least, candidate.correlation, options.threads};
   std::vector<Configuration> loaded;
   const std::vector<SessionFrames> frames =
       first_frames(problem, responses(machine, candidate.varied, states, options.threads, loaded));
-  const Fit all = fit(problem, frames);
+  const auto fit_of = [&](const std::vector<ParameterSet>& sets) {
+    FitProblem with = problem;
+    with.prior = prior_of(candidate, sets);
+    return fit(with, frames);
+  };
 
   Identification result;
+  const std::vector<RowGroup> groups = hold_out_groups(problem, options.hold_out);
+  const bool has_groups = !groups.empty();
+  // Errors of motion can follow the rows far from the truth, and everything else with them. The ladder tries
+  // them as linear steps from a fit without them; without rows to test them they are left out.
   std::vector<ParameterSet> kept = options.sets;
-  const Ladder ladder(problem, candidate, all, hold_out_groups(problem, options.hold_out));
-  const bool has_groups = !ladder.groups().empty();
-  if (has_groups && options.ladder) kept = climb(ladder, measurements, options.sets, result.ladder);
-  if (has_groups) result.held_out = held_out(ladder, measurements, kept);
+  if (options.ladder) std::erase_if(kept, depends_on_place);
+  Eigen::VectorXd fitted = prior_of(candidate, kept);
+  Fit about = fit_of(kept);
+  std::optional<Ladder> ladder(std::in_place, problem, candidate, about, groups);
+  if (has_groups && options.ladder) kept = climb(*ladder, problem, options.sets, result.ladder);
+  if (std::any_of(kept.begin(), kept.end(), depends_on_place) && options.ladder) {
+    about = fit_of(kept);
+    fitted = prior_of(candidate, kept);
+    ladder.emplace(problem, candidate, about, groups);
+  }
+  if (has_groups) result.held_out = held_out(*ladder, measurements, kept);
 
-  FitProblem last = problem;
-  last.prior = prior_of(candidate, kept);
-  const Fit final_fit = kept.size() == options.sets.size() ? all : fit(last, frames);
+  const Eigen::VectorXd prior = prior_of(candidate, kept);
+  const Fit final_fit = prior == fitted ? about : fit_of(kept);
   Eigen::MatrixXd covariance = final_fit.covariance;
-  if (has_groups) widen_by_groups(ladder, kept, covariance);
+  if (has_groups) widen_by_groups(*ladder, kept, covariance);
   result.iterations = final_fit.iterations;
   result.is_converged = final_fit.is_converged;
-  result.repeatability = repeatability_of(measurements);
-  fill_parameters(machine, candidate, final_fit, last.prior, covariance, result);
+  fill_noise(problem, final_fit, result);
+  fill_parameters(machine, candidate, final_fit, prior, covariance, result);
   fill_rows(problem, final_fit, result);
   return result;
 }

@@ -4,6 +4,8 @@
 #include <cmath>
 #include <map>
 
+#include "identify/ranges.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -69,8 +71,9 @@ std::vector<RowErrors> Ladder::errors(const std::vector<ParameterSet>& sets) con
   return result;
 }
 
-std::vector<ParameterSet> climb(const Ladder& ladder, const Measurements& measurements,
+std::vector<ParameterSet> climb(const Ladder& ladder, const FitProblem& problem,
                                 const std::vector<ParameterSet>& sets, std::vector<LadderStep>& steps) {
+  const Measurements& measurements = problem.measurements;
   std::vector<ParameterSet> kept;
   std::vector<RowErrors> now = ladder.errors(kept);
   for (const ParameterSet set : sets) {
@@ -89,7 +92,8 @@ std::vector<ParameterSet> climb(const Ladder& ladder, const Measurements& measur
     const auto count = static_cast<double>(gains.size());
     LadderStep step{set,  mean_error(now), mean_error(next), gain, std::sqrt(squares / (count * (count - 1))),
                     false};
-    step.is_kept = gain > step.gain_scatter;
+    step.left = left_range(problem, ladder.groups(), set);
+    step.is_kept = gain > step.gain_scatter && !step.left;
     if (step.is_kept) {
       kept = with;
       now = next;

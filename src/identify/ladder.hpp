@@ -33,8 +33,9 @@ class Ladder {
 };
 
 /// The sets that are kept, of `sets` in their order. A set stays where the held-out rows improve by more than
-/// the standard error of that.
-std::vector<ParameterSet> climb(const Ladder& ladder, const Measurements& measurements,
+/// the standard error of that; tables and harmonics only if no group leaves the range of an actuator that the
+/// other rows have.
+std::vector<ParameterSet> climb(const Ladder& ladder, const FitProblem& problem,
                                 const std::vector<ParameterSet>& sets, std::vector<LadderStep>& steps);
 
 /// Held-out rows before and after a fit with the sets, by group and kind.

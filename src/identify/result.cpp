@@ -3,7 +3,6 @@
 #include <Eigen/Eigenvalues>
 #include <algorithm>
 #include <cmath>
-#include <map>
 
 namespace counterflex {
 namespace {
@@ -37,6 +36,7 @@ void reduce(Eigen::MatrixXd& rows) {
 /// The directions whose deviation stays above half of the prior one, each with as few parameters as possible.
 std::vector<FreeCombination> free_combinations(const std::vector<IdentifiedParameter>& parameters,
                                                const Eigen::MatrixXd& covariance) {
+  if (parameters.empty()) return {};
   const auto n = static_cast<Eigen::Index>(parameters.size());
   if (n == 0) return {};
   Eigen::VectorXd prior(n);
@@ -121,38 +121,6 @@ void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result
                    [](const Outlier& a, const Outlier& b) { return a.ratio > b.ratio; });
   result.outlier_count = result.outliers.size();
   if (result.outliers.size() > most_outliers) result.outliers.resize(most_outliers);
-}
-
-std::optional<double> repeatability_of(const Measurements& measurements) {
-  double squares = 0;
-  int freedoms = 0;
-  std::map<std::pair<std::size_t, std::vector<long>>, std::vector<const Measurement*>> same;
-  for (const Measurement& row : measurements.rows) {
-    std::vector<long> state;
-    for (const CommandedState& at : row.states) {
-      for (const double value : at.shown) state.push_back(std::lround(value * 1e6));
-      for (const double value : at.F) state.push_back(std::lround(value * 1e3));
-      state.push_back(static_cast<long>(at.directions.forward));
-      state.push_back(static_cast<long>(at.directions.backward));
-    }
-    for (const double value : row.direction) state.push_back(std::lround(value * 1e4));
-    same[{row.session, state}].push_back(&row);
-  }
-  for (const auto& [key, rows] : same) {
-    const bool is_feature = measurements.sessions[key.first].kind == MeasurementKind::cmm_feature;
-    if (rows.size() < 2 || !rows[0]->is_length || is_feature) continue;
-    Vector3 mean = Vector3::Zero();
-    double value = 0;
-    for (const Measurement* row : rows) {
-      mean += row->X.p / static_cast<double>(rows.size());
-      value += row->value / static_cast<double>(rows.size());
-    }
-    for (const Measurement* row : rows)
-      squares += (row->X.p - mean).squaredNorm() + (row->value - value) * (row->value - value);
-    freedoms += static_cast<int>(rows.size()) - 1;
-  }
-  if (freedoms < 3) return {};
-  return std::sqrt(squares / freedoms);
 }
 
 }  // namespace counterflex

@@ -13,7 +13,4 @@ void fill_parameters(const Machine& machine, const Candidates& candidates, const
 /// Lack of fit, outliers, worst rows.
 void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result);
 
-/// Rms scatter of positions and readings at states that a session has more than once (m).
-std::optional<double> repeatability_of(const Measurements& measurements);
-
 }  // namespace counterflex

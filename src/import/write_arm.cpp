@@ -63,6 +63,7 @@ std::string actuator_text(const ArmJoint& joint, double home, const SerialArm& a
   if (joint.min) text += fmt::format(", min_{} = {}", unit, number(*joint.min / unit_of(joint)));
   if (joint.max) text += fmt::format(", max_{} = {}", unit, number(*joint.max / unit_of(joint)));
   text += fmt::format(", home_{} = {}", unit, number(home / unit_of(joint)));
+  if (turns) text += ", harmonics_mdeg = [0, 0, 0, 0]";
   std::string coupled;
   for (const auto& [other, factor] : joint.shown_with)
     coupled += fmt::format("{}J{} = {}", coupled.empty() ? "" : ", ", other + 1, number(factor));

@@ -106,7 +106,7 @@ TEST_CASE("bad measurements are refused at their place") {
       error_of(header + "tracker,0,0,0,0,0,0\n") ==
       "data.csv:2:1: error: kind is \"tracker\"; it must be one of tracker_point, tracker_pose, static_push, "
       "hung_weight, plane_contact, length_bar, squareness, axis_position, axis_table, reversal, scale, "
-      "clamped_torque, ballbar");
+      "clamped_torque, ballbar, repeat");
   CHECK(error_of(header + "tracker_point,0,0,0,0,nan,0\n") ==
         "data.csv:2:23: error: y is \"nan\"; it must be a number");
   CHECK(error_of(header + "tracker_point,0,0,0,0\n") ==

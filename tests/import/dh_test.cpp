@@ -94,14 +94,14 @@ TEST_CASE("lengths and angles of a DH table are those of the file, in its units,
 
 TEST_CASE(
     "the home of an imported arm is regular, and every joint has an error slot and a compliance with a "
-    "source") {
+    "source, and a place for harmonics") {
   const Machine machine =
       read_machine(import_dh(table_of(ur10), "arm.csv", DhConvention::standard), "m.toml");
   CHECK(controls_pose(machine));
   const Model model = prepare(machine);
   REQUIRE(model.home_status == Status::converged);
   CHECK(actuator_jacobian(model, model.home).condition < 100);
-  CHECK(parameters(machine).size() == 6 * 7);
+  CHECK(parameters(machine).size() == 6 * (7 + 4));
   const NumberSources sources = number_sources(machine);
   CHECK(sources.prior == 6 * 7);
   CHECK(is_unmeasured(machine));

@@ -16,7 +16,9 @@ enum class ParameterSet {
   geometry,  ///< all components of errors
   compliance,
   mass,
-  reversal,  ///< lost motion of actuators; rows need directions of motion
+  reversal,   ///< lost motion of actuators; rows need directions of motion
+  tables,     ///< positioning errors of error tables that state their deviation
+  harmonics,  ///< of rotary actuators that have the key
 };
 
 /// Which rows test a fit that was made without them.
@@ -31,10 +33,11 @@ enum class HoldOut {
 bool is_covariance(const Eigen::MatrixXd& matrix);
 
 struct IdentifyOptions {
-  std::vector<ParameterSet> sets = {ParameterSet::zeros, ParameterSet::geometry, ParameterSet::compliance,
-                                    ParameterSet::reversal};
+  std::vector<ParameterSet> sets = {ParameterSet::zeros,    ParameterSet::geometry, ParameterSet::compliance,
+                                    ParameterSet::reversal, ParameterSet::tables,   ParameterSet::harmonics};
   HoldOut hold_out = HoldOut::automatic;
-  bool ladder = true;  ///< a set stays only where held-out rows improve
+  /// A set stays only where held-out rows improve. Without them tables and harmonics are left out.
+  bool ladder = true;
   KnownParameters
       prior{};  ///< of an earlier fit, in place of the machine file's deviations of its parameters
   int threads = 1;
@@ -68,6 +71,14 @@ struct HeldOutGroup {
   double in_interval = 0;  ///< share of the measured numbers that lie in their predicted 95 % intervals
 };
 
+/// A held-out group moves an actuator beyond the range that it has in the other rows. Of shown values (m,
+/// rad).
+struct LeftRange {
+  std::string group, actuator;  ///< as `actuator_names` has it
+  bool turns = false;
+  double trained_min = 0, trained_max = 0, tested_min = 0, tested_max = 0;
+};
+
 /// A set of parameters that was tried.
 struct LadderStep {
   ParameterSet set;
@@ -75,6 +86,20 @@ struct LadderStep {
   double gain = 0;               ///< share of the error that it removes, mean of the groups
   double gain_scatter = 0;       ///< standard error of that mean
   bool is_kept = false;
+  std::optional<LeftRange> left{};  ///< of tables and harmonics: then they are not kept
+};
+
+/// Noise of a session from repeated readings, and what its rows miss beyond that. Of positions these are
+/// distances in space, of gauges values (m, rms).
+struct SessionNoise {
+  std::string session;
+  MeasurementKind kind = MeasurementKind::tracker_point;
+  double noise = 0;           ///< scatter of one reading about the mean of its place
+  int freedoms = 0;           ///< readings less places
+  double misfit = 0;          ///< of the fit: residuals of the means of places
+  double noise_of_means = 0;  ///< the part of the noise in them
+  double lack_of_fit = 0;     ///< the part that noise does not explain
+  bool is_lacking = false;    ///< more than chance explains (F test, 1 %)
 };
 
 /// A row whose error is far outside that of its kind.
@@ -110,7 +135,8 @@ struct Identification {
   std::vector<Location> worst;
   std::vector<Correlation> correlations;  ///< above 0.9
   std::vector<FreeCombination> free;
-  std::optional<double> repeatability;  ///< m: rms scatter of repeated states
+  std::vector<SessionNoise> noise;      ///< of sessions with repeated readings
+  std::optional<double> repeatability;  ///< m: rms scatter of repeated readings of all sessions
   double lack_of_fit = 0;               ///< m: rms of the residuals of positions and readings
   std::optional<double> misfit;         ///< the same in units of the deviations that the rows state
   int iterations = 0;

@@ -24,6 +24,7 @@ enum class MeasurementKind {
   scale,           ///< motion of a linear axis over the commanded one, less 1
   clamped_torque,  ///< turn of a rotary axis under a torque, the flange clamped
   ballbar,         ///< numbers of a ball bar's report; its rows become squareness, reversal and scale
+  repeat,          ///< one of several readings at the same place; they show the noise of a session
   cmm_feature,     ///< position or size of a feature of a coupon, less the nominal one
 };
 
@@ -87,9 +88,19 @@ struct Session {
   bool has_loading = false, has_unloading = false;
 };
 
+/// One of several readings at the same place. No fit uses it.
+struct RepeatedReading {
+  std::string session;  ///< whose noise it shows
+  std::string place;
+  Location at;
+  bool is_position = true;          ///< else a reading of a gauge
+  Vector3 value = Vector3::Zero();  ///< m; of a gauge in the first component
+};
+
 struct Measurements {
   std::vector<Session> sessions;
   std::vector<Measurement> rows;
+  std::vector<RepeatedReading> repeats{};
   std::size_t empty_rows = 0;  ///< of sheets, without a measured value
 };
 

@@ -39,7 +39,7 @@ struct KnownParameters {
 };
 
 /// Those of an identification, and the parameters that it did not vary with their deviations in the machine
-/// file.
+/// file; harmonics only where it states them.
 KnownParameters known_parameters(const Identification& found);
 
 /// Measurements that could be made: pushes along x, y and z and tracker points at states of `machine` around

@@ -24,18 +24,20 @@ constexpr std::string_view mark = "# Identified by counterflex";
 constexpr std::string_view report_mark = "counterflex-identification 1",
                            page_mark = "counterflex identification";
 
-/// "zeros,geometry,compliance,mass,reversal", in the order of ParameterSet. Throws (ErrorKind::usage).
+/// "zeros,geometry,compliance,mass,reversal,tables,harmonics", in the order of ParameterSet. Throws
+/// (ErrorKind::usage).
 std::vector<ParameterSet> sets_of(const std::string& text) {
   std::vector<ParameterSet> sets;
   for (std::size_t begin = 0; begin <= text.size();) {
     const std::size_t end = std::min(text.find(',', begin), text.size());
     const std::string name = text.substr(begin, end - begin);
-    constexpr std::array names = {"zeros", "geometry", "compliance", "mass", "reversal"};
+    constexpr std::array names = {"zeros",    "geometry", "compliance", "mass",
+                                  "reversal", "tables",   "harmonics"};
     const auto found = std::find(names.begin(), names.end(), name);
     if (found == names.end())
       throw InputError(ErrorKind::usage, {},
-                       fmt::format("--fit has '{}'; use a list of zeros, geometry, compliance, mass and "
-                                   "reversal",
+                       fmt::format("--fit has '{}'; use a list of zeros, geometry, compliance, mass, "
+                                   "reversal, tables and harmonics",
                                    name));
     sets.push_back(static_cast<ParameterSet>(found - names.begin()));
     begin = end + 1;

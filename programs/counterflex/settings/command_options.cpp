@@ -336,11 +336,11 @@ void add_identify(CLI::App& app, Options& options) {
       ->required()
       ->type_name("FILE")
       ->allow_extra_args(false);
-  value_option(
-      command, "--fit", "LIST",
-      "What is fitted: zeros, geometry, compliance, mass, reversal (default: all but mass; compliance if "
-      "the rows are pushes and weights)",
-      [&](const std::string& text) { options.identify.fit = text; });
+  value_option(command, "--fit", "LIST",
+               "What is fitted: zeros, geometry, compliance, mass, reversal, tables, harmonics (default: all "
+               "but mass; "
+               "compliance if the rows are pushes and weights)",
+               [&](const std::string& text) { options.identify.fit = text; });
   value_option(
       command, "--hold-out", "session|region|20%",
       "Which rows test fits that are made without them (default: sessions if there are several, else 20%)",

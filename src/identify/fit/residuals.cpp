@@ -208,6 +208,7 @@ RowResidual residual(const Measurement& row, MeasurementKind kind, const Session
     case MeasurementKind::clamped_torque:
       return with_offset(row, at[0].turn, at[0].turn_tangents, frames);
     case MeasurementKind::ballbar:
+    case MeasurementKind::repeat:
       break;
   }
   return {};

@@ -13,8 +13,10 @@ KnownParameters known_parameters(const Identification& found) {
   for (const Parameter& parameter : parameters(found.machine)) {
     const bool is_fitted = std::find(known.names.begin(), known.names.begin() + fitted, parameter.name) !=
                            known.names.begin() + fitted;
-    const double sigma = prior_deviation(found.machine, parameter).sigma;
-    if (is_fitted || parameter.kind == ParameterKind::reversal || sigma == 0) continue;
+    const auto [sigma, is_default] = prior_deviation(found.machine, parameter);
+    // A place for harmonics does not mean that there are any.
+    const bool is_place = parameter.kind == ParameterKind::harmonic && is_default;
+    if (is_fitted || parameter.kind == ParameterKind::reversal || is_place || sigma == 0) continue;
     known.names.push_back(parameter.name);
     variances.push_back(sigma * sigma);
   }

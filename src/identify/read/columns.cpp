@@ -51,7 +51,7 @@ const std::vector<Kind>& kinds() {
       {{"mass"}, list(masses)},
       {{"squareness", "sigma_squareness"}, list(slopes)},
       {{"scale", "sigma_scale"}, list(scales)},
-      {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point", "phase"},
+      {{"gx", "gy", "gz", "session", "kind", "bar", "axes", "axis", "direction", "point", "phase", "place"},
        list(none)},
   };
   return all;
@@ -105,7 +105,7 @@ std::string column_names(const Machine& machine) {
          "x_mm, y_mm, z_mm, rx_deg, ry_deg, rz_deg, fx_N, fy_N, fz_N, mx_Nm, my_Nm, mz_Nm, mass_kg, gx, gy, "
          "gz, gauge_x_mm, gauge_y_mm, gauge_z_mm, force_x_mm, force_y_mm, force_z_mm, phase, "
          "reading_um, length_mm, squareness_um_per_m, axes, axis, direction, position_mm, deviation_um, "
-         "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, sigma_mm, sigma_angle_deg, "
+         "reversal_um, scale_um_per_m, radius_mm, torque_Nm, bar, point, place, sigma_mm, sigma_angle_deg, "
          "sigma_squareness_um_per_m, sigma_scale_um_per_m, session, kind (other units: m, um, in, rad, mrad, "
          "mdeg, arcsec, kN)";
 }

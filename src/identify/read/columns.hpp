@@ -22,7 +22,7 @@ struct Column {
 /// Quantities by name: "q1" to "q9", "x", "rx", "fx", "mx", "gx", "mass", "gauge_x", "force_x", "reading",
 /// "length", "radius", "sigma", "sigma_angle", "sigma_squareness", "sigma_scale", "squareness", "scale",
 /// "position", "deviation", "reversal", "torque"; texts "session", "kind", "bar", "axes", "axis",
-/// "direction", "point", "phase".
+/// "direction", "point", "phase", "place".
 using Columns = std::map<std::string, Column, std::less<>>;
 
 /// The quantity and unit of a column's name, "q1_deg". Names of actuators, "X_mm" and "A1_deg", are those of

@@ -10,10 +10,10 @@
 namespace counterflex {
 namespace {
 
-constexpr std::array<std::string_view, 14> all_names = {
+constexpr std::array<std::string_view, 15> all_names = {
     "tracker_point", "tracker_pose",   "static_push",   "hung_weight", "plane_contact",
     "length_bar",    "squareness",     "axis_position", "axis_table",  "reversal",
-    "scale",         "clamped_torque", "ballbar",       "cmm_feature"};
+    "scale",         "clamped_torque", "ballbar",       "repeat",      "cmm_feature"};
 
 // A laser tracker, a dial gauge, a touch or a bar, a ball bar.
 constexpr double sigma_tracker = 0.05 * mm, sigma_gauge = 5 * um, sigma_touch = 0.02 * mm, sigma_slope = 5e-6,
@@ -86,6 +86,8 @@ std::vector<std::string_view> needed_columns(MeasurementKind kind) {
       return {"axis", "torque"};
     case MeasurementKind::ballbar:
       return {"axes"};
+    case MeasurementKind::repeat:
+      return {"place"};
   }
   return {};
 }
@@ -97,6 +99,7 @@ bool needs_actuators(MeasurementKind kind) {
     case MeasurementKind::reversal:
     case MeasurementKind::scale:
     case MeasurementKind::ballbar:
+    case MeasurementKind::repeat:
       return false;
     default:
       return true;

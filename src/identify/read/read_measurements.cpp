@@ -13,6 +13,7 @@
 #include "identify/read/description.hpp"
 #include "identify/read/kinds.hpp"
 #include "identify/read/push.hpp"
+#include "identify/read/repeat.hpp"
 #include "identify/read/table.hpp"
 
 namespace counterflex {
@@ -81,14 +82,15 @@ class RowReader {
     return *kind;
   }
 
+  std::string session_name() const {
+    const csv::Field* field = table_->text("session");
+    if (field != nullptr && !field->text.empty()) return without_controls(field->text);
+    return description_.session.empty() ? std::filesystem::path(file_).stem().string() : description_.session;
+  }
+
   /// `part` distinguishes rows of one session whose unknowns differ.
   std::size_t session_of(MeasurementKind kind, const std::string& part = "") {
-    const csv::Field* field = table_->text("session");
-    const std::string name =
-        (field != nullptr && !field->text.empty() ? without_controls(field->text)
-         : !description_.session.empty()          ? description_.session
-                                                  : std::filesystem::path(file_).stem().string()) +
-        part;
+    const std::string name = session_name() + part;
     for (std::size_t i = 0; i < all_.sessions.size(); ++i)
       if (all_.sessions[i].name == name && all_.sessions[i].kind == kind) return i;
     const bool sigma_given =
@@ -167,6 +169,7 @@ class RowReader {
     for (const std::string_view name : needed_columns(kind))
       if (!table_->has(name) && !(name == "direction" && !description_.direction.empty()))
         table_->fail("", fmt::format("rows of kind {} need a column \"{}\"", name_of(kind), name));
+    if (kind == MeasurementKind::repeat) return all_.repeats.push_back(read_repeat(*table_, session_name()));
     Measurement row;
     row.at = {file_, table_->where().line, 1};
     if (is_slope(kind) && !table_->is_filled(sigma_column(kind)) && table_->is_filled("sigma"))
@@ -396,13 +399,17 @@ void read_measurements(std::string_view csv, const std::string& file, const Mach
 }
 
 void load_measurements(const std::string& file, const Machine& machine, Measurements& all) {
-  if (!file.ends_with(".toml")) {
+  const auto count = [&] { return all.rows.size() + all.repeats.size() + all.empty_rows; };
+  const std::size_t before = count();
+  if (file.ends_with(".toml")) {
+    const Description description = read_description(read_file(file), file, machine);
+    const std::string text = read_file(description.csv);
+    RowReader(description.csv, machine, description, all).read(text);
+  } else {
     read_measurements(read_file(file), file, machine, all);
-    return;
   }
-  const Description description = read_description(read_file(file), file, machine);
-  const std::string text = read_file(description.csv);
-  RowReader(description.csv, machine, description, all).read(text);
+  if (count() == before)
+    throw InputError(ErrorKind::machine_or_force, {file}, "the file has no rows of measurements");
 }
 
 }  // namespace counterflex

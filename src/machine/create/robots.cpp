@@ -62,7 +62,8 @@ std::string joint_lines(const Robot& robot, std::size_t i) {
   const RobotJoint& joint = robot.joints[i];
   const std::string axis = fmt::format("A{}", i + 1);
   return fmt::format(
-             "  {{ actuator = \"revolute\", axis = \"{}\"{}, min_deg = {}, max_deg = {}, home_deg = {} }},\n",
+             "  {{ actuator = \"revolute\", axis = \"{}\"{}, min_deg = {}, max_deg = {}, home_deg = {}, "
+             "harmonics_mdeg = [0, 0, 0, 0] }},\n",
              joint.axis, joint.shown, number(joint.min), number(joint.max), number(joint.home)) +
          fmt::format(
              "  {{ compliance = \"revolute\", axis = \"{}\", compliance_rad_per_Nm = {}, name = \"{}\" }},\n",

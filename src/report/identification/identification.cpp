@@ -76,11 +76,11 @@ std::string free_names(const Identification& found) {
 constexpr double large_misfit = 3;
 
 std::string misfit_lines(const Identification& found) {
-  std::string text = fmt::format("lack of fit  {:.4g} mm rms of all rows", found.lack_of_fit / mm);
+  std::string text = fmt::format("residuals    {:.4g} mm rms of all rows", found.lack_of_fit / mm);
   if (found.misfit) text += fmt::format(", {:.2g} of their stated deviations", *found.misfit);
-  text += found.repeatability
-              ? fmt::format("; repeated states scatter by {:.4g} mm\n", *found.repeatability / mm)
-              : "; no state was repeated, so that noise is not known\n";
+  text += found.noise.empty() ? "; without repeats noise and lack of fit are not known\n" : "\n";
+  for (const SessionNoise& noise : found.noise)
+    text += fmt::format("noise        {}, {}: {}\n", noise.session, name_of(noise.kind), noise_words(noise));
   if (found.misfit.value_or(0) > large_misfit)
     text +=
         "             this is more than noise: check signs, units and columns of the rows, the tool and the "
@@ -111,6 +111,26 @@ Json json_of(const ProgramUncertainty& program) {
                             {"sigma_row_um", next.row.sigma / um},
                             {"sigma_after_um", next.sigma_after / um}});
   return json;
+}
+
+Json json_of(const LeftRange& left) {
+  const double unit = left.turns ? deg : mm;
+  const std::string name = left.turns ? "deg" : "mm";
+  return {{"group", left.group},
+          {"actuator", left.actuator},
+          {"trained_" + name, {left.trained_min / unit, left.trained_max / unit}},
+          {"tested_" + name, {left.tested_min / unit, left.tested_max / unit}}};
+}
+
+Json json_of(const SessionNoise& noise) {
+  return {{"session", noise.session},
+          {"kind", name_of(noise.kind)},
+          {"noise_mm", noise.noise / mm},
+          {"degrees_of_freedom", noise.freedoms},
+          {"misfit_of_means_mm", noise.misfit / mm},
+          {"noise_of_means_mm", noise.noise_of_means / mm},
+          {"lack_of_fit_mm", noise.lack_of_fit / mm},
+          {"lacks", noise.is_lacking}};
 }
 
 /// Of a parameter's name, in SI.
@@ -151,10 +171,12 @@ std::string to_text(const Identification& found, bool all_parameters) {
                           pair_of(group.angle_before, group.angle_after, deg));
   }
   if (found.held_out.empty()) text += "held out     nothing: there are too few rows to test the fit\n";
-  for (const LadderStep& step : found.ladder)
+  for (const LadderStep& step : found.ladder) {
     text += fmt::format("{:<12} {}: removes {:.1f} % of the held-out error, standard error {:.1f} %\n",
                         step.is_kept ? "kept" : "rejected", name_of(step.set), 100 * step.gain,
                         100 * step.gain_scatter);
+    if (step.left) text += fmt::format("             not tested there: {}\n", range_words(*step.left));
+  }
   text += misfit_lines(found);
   text += parameter_lines(found, all_parameters);
   if (const std::string free = free_names(found); !free.empty())
@@ -198,11 +220,13 @@ std::string to_json(const Identification& found) {
     json["covariance"].push_back(std::move(row));
   }
   json["ladder"] = Json::array();
-  for (const LadderStep& step : found.ladder)
+  for (const LadderStep& step : found.ladder) {
     json["ladder"].push_back({{"set", name_of(step.set)},
                               {"gain", step.gain},
                               {"standard_error", step.gain_scatter},
                               {"kept", step.is_kept}});
+    if (step.left) json["ladder"].back()["left_range"] = json_of(*step.left);
+  }
   json["held_out"] = Json::array();
   for (const HeldOutGroup& group : found.held_out) {
     const ErrorUnit unit = unit_of(group.kind, group.is_length);
@@ -221,6 +245,8 @@ std::string to_json(const Identification& found) {
   json["lack_of_fit_mm"] = found.lack_of_fit / mm;
   if (found.misfit) json["misfit"] = *found.misfit;
   json["repeatability_mm"] = found.repeatability ? Json(*found.repeatability / mm) : Json(nullptr);
+  json["noise"] = Json::array();
+  for (const SessionNoise& noise : found.noise) json["noise"].push_back(json_of(noise));
   json["correlations"] = Json::array();
   for (const Correlation& c : found.correlations)
     json["correlations"].push_back({{"a", c.a}, {"b", c.b}, {"value", c.value}});

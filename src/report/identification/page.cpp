@@ -92,7 +92,10 @@ std::string held_out_table(const Identification& found) {
       "<table>\n" + row({"set of parameters", "removes of the held-out error", "standard error", ""}, "th");
   for (const LadderStep& step : found.ladder)
     text += row({std::string(name_of(step.set)), fmt::format("{:.1f} %", 100 * step.gain),
-                 fmt::format("{:.1f} %", 100 * step.gain_scatter), step.is_kept ? "kept" : "rejected"});
+                 fmt::format("{:.1f} %", 100 * step.gain_scatter),
+                 step.is_kept ? "kept"
+                 : step.left  ? "rejected, not tested there: " + xml_escaped(range_words(*step.left))
+                              : "rejected"});
   return text + "</table>\n";
 }
 
@@ -134,12 +137,12 @@ std::string file_line(const Location& at) {
 
 std::string row_tables(const Identification& found) {
   std::string text = fmt::format(
-      "<h2>Noise and misfit</h2>\n<p>All rows miss by {:.4g} mm rms{}. {}</p>\n", found.lack_of_fit / mm,
+      "<h2>Noise and lack of fit</h2>\n<p>All rows miss by {:.4g} mm rms{}. {}</p>\n", found.lack_of_fit / mm,
       found.misfit ? fmt::format(", {:.2g} of their stated deviations", *found.misfit) : "",
-      found.repeatability
-          ? fmt::format("Repeated states scatter by {:.4g} mm: the rest is what the model lacks.",
-                        *found.repeatability / mm)
-          : "No state was repeated, so that noise is not known.");
+      found.noise.empty() ? "Without repeats noise and lack of fit are not known." : "");
+  for (const SessionNoise& noise : found.noise)
+    text += fmt::format("<p>{}, {}: {}</p>\n", xml_escaped(noise.session), name_of(noise.kind),
+                        noise_words(noise));
   text += fmt::format("<p>{} rows do not fit and were left out.</p>\n", found.outlier_count);
   if (!found.outliers.empty()) {
     text += "<table>\n" + row({"row", "session", "error", "times its deviation"}, "th");

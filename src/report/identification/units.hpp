@@ -1,6 +1,7 @@
 #pragma once
 /// Names and units of an identification's results.
 #include <cmath>
+#include <string>
 #include <string_view>
 
 #include "counterflex/geometry/types.hpp"
@@ -20,6 +21,10 @@ inline std::string_view name_of(ParameterSet set) {
       return "mass";
     case ParameterSet::reversal:
       return "reversal";
+    case ParameterSet::tables:
+      return "tables";
+    case ParameterSet::harmonics:
+      return "harmonics";
   }
   return "";
 }
@@ -28,6 +33,12 @@ inline std::string_view name_of(ParameterSet set) {
 inline double shown_value(const IdentifiedParameter& p) {
   return std::abs(p.value) <= 1e-6 * p.sigma ? 0 : p.value;
 }
+
+/// "C moves axis A2 from -120 to 10 deg; in the other rows it moves from -100 to -20 deg"
+std::string range_words(const LeftRange& left);
+
+/// "a reading scatters by 0.054 mm (120 repeats) ..."
+std::string noise_words(const SessionNoise& noise);
 
 struct ErrorUnit {
   std::string_view name;

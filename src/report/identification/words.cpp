@@ -1,0 +1,29 @@
+#include <fmt/format.h>
+
+#include "report/identification/units.hpp"
+
+namespace counterflex {
+
+std::string range_words(const LeftRange& left) {
+  const double unit = left.turns ? deg : mm;
+  return fmt::format(
+      "{} moves {} from {:.4g} to {:.4g} {}; in the other rows it moves from {:.4g} to {:.4g} {}", left.group,
+      left.actuator, left.tested_min / unit, left.tested_max / unit, left.turns ? "deg" : "mm",
+      left.trained_min / unit, left.trained_max / unit, left.turns ? "deg" : "mm");
+}
+
+std::string noise_words(const SessionNoise& noise) {
+  const ErrorUnit unit = unit_of(noise.kind, true);
+  std::string text = fmt::format(
+      "readings at one place scatter by {:.3g} {} ({} degrees of freedom); the fit misses the means of "
+      "places by {:.3g} "
+      "{}. ",
+      noise.noise / unit.si, unit.name, noise.freedoms, noise.misfit / unit.si, unit.name);
+  if (!noise.is_lacking) return text + "This is noise: better values need more rows or a better gauge.";
+  return text + fmt::format(
+                    "Noise explains {:.3g} {} of this. The other {:.3g} {} are lack of fit: the model "
+                    "lacks an error of the machine, and more rows do not help.",
+                    noise.noise_of_means / unit.si, unit.name, noise.lack_of_fit / unit.si, unit.name);
+}
+
+}  // namespace counterflex
