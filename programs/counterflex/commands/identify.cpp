@@ -88,6 +88,56 @@ std::optional<Failure> places_for(const Options& options, Console& console,
   return find_program_places(run, console, places);
 }
 
+/// Empty where nothing is written.
+struct OutputFiles {
+  std::string machine, report, page;
+};
+
+/// Throws `InputError` for a file that is an input, too, or that another program wrote.
+OutputFiles output_files(const Options& options) {
+  OutputFiles files{options.output.value_or(""), "", ""};
+  if (options.report) files.report = *options.report + ".json", files.page = *options.report + ".html";
+  std::vector<std::string> inputs = options.identify.data;
+  inputs.push_back(options.machine);
+  for (const std::string& more : {options.identify.program, options.identify.prior})
+    if (!more.empty()) inputs.push_back(more);
+  check_machine_output(files.machine, inputs, options.force_overwrite);
+  for (const std::string& input : inputs)
+    for (const std::string& file : {files.report, files.page})
+      if (!file.empty() && canonical_name(file) == canonical_name(input))
+        throw InputError(ErrorKind::usage, {}, fmt::format("{} is an input and an output", file));
+  if (!options.force_overwrite)
+    refuse_foreign({marked_file(files.report, report_mark), marked_file(files.page, page_mark)});
+  return files;
+}
+
+/// The files, and the result for the terminal or a pipe.
+void write_files(const Options& options, const Machine& machine, const Identification& found,
+                 const OutputFiles& files) {
+  const std::string data = names_of(options.identify.data);
+  std::optional<FileWriter> machine_file, json_file, page_file;
+  if (!files.machine.empty()) {
+    const std::string text = read_file(options.machine);
+    machine_file.emplace(files.machine);
+    machine_file->write(fmt::format("{} {} from {}\n", mark, version, data));
+    machine_file->write(with_identified(without_mark(text), options.machine, found, data));
+  }
+  if (!files.report.empty()) {
+    json_file.emplace(files.report);
+    json_file->write(to_json(found));
+    page_file.emplace(files.page);
+    page_file->write(identification_page(found, machine.name, data));
+  }
+  publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
+  if (files.machine == "-") return;
+  if (options.json) return write_result(to_json(found));
+  std::string written;
+  for (const std::string& file : {files.machine, files.report, files.page})
+    if (!file.empty()) written += (written.empty() ? "" : ", ") + without_controls(file);
+  write_result(to_text(found, options.verbose) +
+               (written.empty() ? "" : fmt::format("\nwritten      {}\n", written)));
+}
+
 }  // namespace
 
 std::optional<ErrorKind> run_identify(const Options& options, Console& console) {
@@ -96,20 +146,7 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
   if (options.identify.hold_out) wanted.hold_out = hold_out_of(*options.identify.hold_out);
   wanted.ladder = !options.identify.all;
   wanted.threads = options.threads;
-  const std::string output = options.output.value_or(""),
-                    report = options.report ? *options.report + ".json" : "",
-                    page = options.report ? *options.report + ".html" : "";
-  std::vector<std::string> inputs = options.identify.data;
-  inputs.push_back(options.machine);
-  for (const std::string& more : {options.identify.program, options.identify.prior})
-    if (!more.empty()) inputs.push_back(more);
-  check_machine_output(output, inputs, options.force_overwrite);
-  for (const std::string& input : inputs)
-    for (const std::string& file : {report, page})
-      if (!file.empty() && canonical_name(file) == canonical_name(input))
-        throw InputError(ErrorKind::usage, {}, fmt::format("{} is an input and an output", file));
-  if (!options.force_overwrite)
-    refuse_foreign({marked_file(report, report_mark), marked_file(page, page_mark)});
+  const OutputFiles files = output_files(options);
   const MachineInput input = read_machine_input(options);
   if (const std::string& prior = options.identify.prior; !prior.empty())
     wanted.prior = read_covariance(read_file(prior), prior, input.machine);
@@ -132,28 +169,7 @@ std::optional<ErrorKind> run_identify(const Options& options, Console& console) 
                                       options.threads);
     found.program->program = names_of({options.identify.program});
   }
-  std::optional<FileWriter> machine_file, json_file, page_file;
-  if (!output.empty()) {
-    const std::string text = read_file(options.machine);
-    machine_file.emplace(output);
-    machine_file->write(fmt::format("{} {} from {}\n", mark, version, names_of(options.identify.data)));
-    machine_file->write(
-        with_identified(without_mark(text), options.machine, found, names_of(options.identify.data)));
-  }
-  if (!report.empty()) {
-    json_file.emplace(report);
-    json_file->write(to_json(found));
-    page_file.emplace(page);
-    page_file->write(identification_page(found, input.machine.name, names_of(options.identify.data)));
-  }
-  publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
-  if (output == "-") return {};
-  std::string written;
-  for (const std::string& file : {output, report, page})
-    if (!file.empty()) written += (written.empty() ? "" : ", ") + without_controls(file);
-  write_result(options.json ? to_json(found)
-                            : to_text(found, options.verbose) +
-                                  (written.empty() ? "" : fmt::format("\nwritten      {}\n", written)));
+  write_files(options, input.machine, found, files);
   return {};
 }
 

@@ -157,6 +157,56 @@ Json json_of(const ErrorSummary& summary, double unit) {
           {"largest", summary.largest / unit}};
 }
 
+Json parameters_json(const Identification& found) {
+  Json all = Json::array();
+  for (const IdentifiedParameter& p : found.parameters)
+    all.push_back({{"name", p.name},
+                   {"before", p.before / p.unit},
+                   {"value", p.value / p.unit},
+                   {"sigma", p.sigma / p.unit},
+                   {"prior_sigma", p.prior / p.unit},
+                   {"prior_is_default", p.is_default_prior},
+                   {"identified", p.is_identified}});
+  return all;
+}
+
+/// In the units of the parameters' names.
+Json covariance_json(const Identification& found) {
+  Json all = Json::array();
+  for (std::size_t i = 0; i < found.parameters.size(); ++i) {
+    Json row = Json::array();
+    for (std::size_t j = 0; j < found.parameters.size(); ++j)
+      row.push_back(found.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) /
+                    (found.parameters[i].unit * found.parameters[j].unit));
+    all.push_back(std::move(row));
+  }
+  return all;
+}
+
+Json json_of(const LadderStep& step) {
+  Json json{{"set", name_of(step.set)},
+            {"gain", step.gain},
+            {"standard_error", step.gain_scatter},
+            {"kept", step.is_kept}};
+  if (step.left) json["left_range"] = json_of(*step.left);
+  return json;
+}
+
+Json json_of(const HeldOutGroup& group) {
+  const ErrorUnit unit = unit_of(group.kind, group.is_length);
+  Json json{{"name", group.name},
+            {"kind", name_of(group.kind)},
+            {"unit", unit.name},
+            {"before", json_of(group.before, unit.si)},
+            {"after", json_of(group.after, unit.si)},
+            {"in_95_percent_interval", group.in_interval}};
+  if (group.angle_after.count > 0) {
+    json["angle_deg_before"] = json_of(group.angle_before, deg);
+    json["angle_deg_after"] = json_of(group.angle_after, deg);
+  }
+  return json;
+}
+
 }  // namespace
 
 std::string to_text(const Identification& found, bool all_parameters) {
@@ -202,46 +252,12 @@ std::string to_text(const Identification& found, bool all_parameters) {
 
 std::string to_json(const Identification& found) {
   Json json{{"schema", "counterflex-identification 1"}};
-  json["parameters"] = Json::array();
-  for (const IdentifiedParameter& p : found.parameters)
-    json["parameters"].push_back({{"name", p.name},
-                                  {"before", p.before / p.unit},
-                                  {"value", p.value / p.unit},
-                                  {"sigma", p.sigma / p.unit},
-                                  {"prior_sigma", p.prior / p.unit},
-                                  {"prior_is_default", p.is_default_prior},
-                                  {"identified", p.is_identified}});
-  json["covariance"] = Json::array();
-  for (std::size_t i = 0; i < found.parameters.size(); ++i) {
-    Json row = Json::array();
-    for (std::size_t j = 0; j < found.parameters.size(); ++j)
-      row.push_back(found.covariance(static_cast<Eigen::Index>(i), static_cast<Eigen::Index>(j)) /
-                    (found.parameters[i].unit * found.parameters[j].unit));
-    json["covariance"].push_back(std::move(row));
-  }
+  json["parameters"] = parameters_json(found);
+  json["covariance"] = covariance_json(found);
   json["ladder"] = Json::array();
-  for (const LadderStep& step : found.ladder) {
-    json["ladder"].push_back({{"set", name_of(step.set)},
-                              {"gain", step.gain},
-                              {"standard_error", step.gain_scatter},
-                              {"kept", step.is_kept}});
-    if (step.left) json["ladder"].back()["left_range"] = json_of(*step.left);
-  }
+  for (const LadderStep& step : found.ladder) json["ladder"].push_back(json_of(step));
   json["held_out"] = Json::array();
-  for (const HeldOutGroup& group : found.held_out) {
-    const ErrorUnit unit = unit_of(group.kind, group.is_length);
-    Json entry{{"name", group.name},
-               {"kind", name_of(group.kind)},
-               {"unit", unit.name},
-               {"before", json_of(group.before, unit.si)},
-               {"after", json_of(group.after, unit.si)},
-               {"in_95_percent_interval", group.in_interval}};
-    if (group.angle_after.count > 0) {
-      entry["angle_deg_before"] = json_of(group.angle_before, deg);
-      entry["angle_deg_after"] = json_of(group.angle_after, deg);
-    }
-    json["held_out"].push_back(std::move(entry));
-  }
+  for (const HeldOutGroup& group : found.held_out) json["held_out"].push_back(json_of(group));
   json["lack_of_fit_mm"] = found.lack_of_fit / mm;
   if (found.misfit) json["misfit"] = *found.misfit;
   json["repeatability_mm"] = found.repeatability ? Json(*found.repeatability / mm) : Json(nullptr);
