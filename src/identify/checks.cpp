@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 
 #include "counterflex/geometry/types.hpp"
 #include "identify/fit/residuals.hpp"
@@ -63,6 +64,33 @@ void check_signs(const Measurements& measurements, std::size_t s) {
                   first->states[0].F.head<3>().dot(first->direction)));
 }
 
+/// Readings of a tracker that are equal in every digit, for a third of the rows of a session: the rows were
+/// copied. A few equal ones may be repeats.
+void check_copies(const Measurements& measurements, std::size_t s) {
+  std::map<std::vector<double>, const Measurement*> seen;
+  std::size_t count = 0, copies = 0;
+  const Measurement *copy = nullptr, *original = nullptr;
+  for (const Measurement& row : measurements.rows) {
+    if (row.session != s) continue;
+    ++count;
+    const CommandedState& state = row.states[0];
+    std::vector<double> numbers(state.shown.begin(), state.shown.end());
+    numbers.insert(numbers.end(), state.F.begin(), state.F.end());
+    numbers.insert(numbers.end(), row.X.p.begin(), row.X.p.end());
+    for (int i = 0; i < 9; ++i) numbers.push_back(row.X.R(i / 3, i % 3));
+    const auto [found, is_new] = seen.try_emplace(std::move(numbers), &row);
+    if (is_new) continue;
+    ++copies;
+    if (copy == nullptr) copy = &row, original = found->second;
+  }
+  if (3 * copies < count || copies < 3) return;
+  throw InputError(
+      ErrorKind::machine_or_force, copy->at,
+      fmt::format("session \"{}\": {} of {} rows are copies, the first of {}:{}; a copy shows no "
+                  "noise: give each row once",
+                  measurements.sessions[s].name, copies, count, original->at.file, original->at.line));
+}
+
 }  // namespace
 
 void check_sessions(const Measurements& measurements) {
@@ -108,6 +136,8 @@ void check_sessions(const Measurements& measurements) {
                        fmt::format("all rows of session \"{}\" have the same actuator values; no fit can "
                                    "separate its frames from the machine's parameters: measure other states",
                                    session.name));
+    if (session.kind == MeasurementKind::tracker_point || session.kind == MeasurementKind::tracker_pose)
+      check_copies(measurements, s);
   }
 }
 

@@ -205,6 +205,25 @@ TEST_CASE("too few measurements, and states that are all alike, are refused") {
       InputError);
 }
 
+TEST_CASE("rows that were copied are refused, a few equal ones are not") {
+  Random random(8);
+  const Machine nominal = six_axis_robot();
+  Measurements all;
+  add_tracker(nominal, Pose{}, Pose{}, false, 30, 0, 0.5, 20e-6, random, all, "one");
+  IdentifyOptions options;
+  options.ladder = false;
+  options.sets = {ParameterSet::compliance};
+  Measurements few = all, twice = all;
+  for (int i = 0; i < 3; ++i) few.rows.push_back(all.rows[static_cast<std::size_t>(i)]);
+  CHECK_NOTHROW(identify(nominal, few, options));
+  twice.rows.insert(twice.rows.end(), all.rows.begin(), all.rows.end());
+  CHECK_THROWS_WITH_AS(
+      identify(nominal, twice, options),
+      "one.csv:2:1: error: session \"one\": 30 of 60 rows are copies, the first of one.csv:2; "
+      "a copy shows no noise: give each row once",
+      InputError);
+}
+
 TEST_CASE("a session in inches, or with radians as degrees, is refused by name") {
   Random random(5);
   const Machine nominal = six_axis_robot();

@@ -101,6 +101,8 @@ TEST_CASE("bad measurements are refused at their place") {
   CHECK(error_of("kind,speed\n")
             .starts_with("data.csv:1:6: error: unknown column \"speed\"; known columns: q1_mm, "));
   CHECK(error_of("kind,X_mm,X_mm\n") == "data.csv:1:11: error: column \"X_mm\" is there twice");
+  CHECK(error_of("kind,X_mm,X_in,Y_mm,Z_mm,x_mm,y_mm,z_mm\n") ==
+        "data.csv:1:11: error: columns \"X_mm\" and \"X_in\" are the same quantity; keep one");
   const std::string header = "kind,X_mm,Y_mm,Z_mm,x_mm,y_mm,z_mm\n";
   CHECK(
       error_of(header + "tracker,0,0,0,0,0,0\n") ==

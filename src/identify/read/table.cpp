@@ -122,6 +122,7 @@ void Table::read_names(const std::vector<csv::Field>& fields) {
   count_ = fields.size();
   columns_ = description_.constants;
   std::set<std::string, std::less<>> seen;
+  std::map<std::string, std::size_t> of_quantity;
   for (std::size_t i = 0; i < fields.size(); ++i) {
     const Location at{where_.file, where_.line, fields[i].column};
     if (description_.is_mapped) {
@@ -139,6 +140,10 @@ void Table::read_names(const std::vector<csv::Field>& fields) {
     if (!quantity)
       csv::fail(at, fmt::format("unknown column \"{}\"; known columns: {}", without_controls(fields[i].text),
                                 column_names(machine_)));
+    if (const auto [other, is_new] = of_quantity.emplace(quantity->name, i); !is_new)
+      csv::fail(at,
+                fmt::format("columns \"{}\" and \"{}\" are the same quantity; keep one",
+                            without_controls(fields[other->second].text), without_controls(fields[i].text)));
     columns_[quantity->name] = {i, quantity->si, {}, quantity->is_angle};
   }
 }
