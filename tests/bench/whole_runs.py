@@ -26,7 +26,7 @@ class Work:
 
     def arguments(self, counterflex, threads):
         arguments = [counterflex, 'compensate', self.program, '-m', self.machine.file, '-o', self.folder + '/out.ngc',
-                     '--max-correction-mm', '5', '--quiet', '--threads', str(threads)]
+                     '--max-correction-mm', '5', '--threads', str(threads)]
         if self.forces in ('constant', 'fine'):
             return arguments + ['--force=' + made_programs.CONSTANT_FORCE]
         arguments += ['-f', self.csv]
