@@ -3,6 +3,16 @@
 #include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
+namespace {
+
+constexpr const char *growth_name = "spindle_growth", *shift_name = "thermal_shift";
+
+bool is_thermal(const Element& element) {
+  const auto* error = std::get_if<AssemblyError>(&element);
+  return error != nullptr && (error->name == growth_name || error->name == shift_name);
+}
+
+}  // namespace
 
 ThermalShift thermal_shift(const ThermalTable& table, double temperature) {
   const auto above = std::upper_bound(table.temperatures.begin(), table.temperatures.end(), temperature);
@@ -16,6 +26,8 @@ ThermalShift thermal_shift(const ThermalTable& table, double temperature) {
 Machine at_temperature(const Machine& machine, double temperature) {
   const ThermalShift at = thermal_shift(*machine.thermal, temperature);
   Machine result = machine;
+  if (machine.temperature)
+    for (Chain& chain : result.chains) std::erase_if(chain.elements, is_thermal);
   result.temperature = temperature;
   // All chains move alike, so that closures do not change.
   const Vector3 growth_P = machine.X_PT.R * Vector3(0, 0, -at.growth);
@@ -23,8 +35,8 @@ Machine at_temperature(const Machine& machine, double temperature) {
     std::vector<Element>& elements = result.chains[i].elements;
     const bool ends_with_mass = i == 0 && machine.ends_with_tool_mass;
     elements.insert(elements.end() - (ends_with_mass ? 1 : 0),
-                    AssemblyError{"spindle_growth", translation(growth_P)});
-    elements.insert(elements.begin(), AssemblyError{"thermal_shift", translation(at.shift)});
+                    AssemblyError{growth_name, translation(growth_P)});
+    elements.insert(elements.begin(), AssemblyError{shift_name, translation(at.shift)});
   }
   return result;
 }

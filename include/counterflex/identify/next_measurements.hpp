@@ -32,12 +32,6 @@ struct ProgramUncertainty {
   std::vector<NextMeasurement> next;  ///< the best first; each with those before it
 };
 
-/// Parameters with their covariance (SI).
-struct KnownParameters {
-  std::vector<std::string> names;
-  Eigen::MatrixXd covariance;
-};
-
 /// Those of an identification, and the parameters that it did not vary with their deviations in the machine
 /// file; harmonics only where it states them.
 KnownParameters known_parameters(const Identification& found);

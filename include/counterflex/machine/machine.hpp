@@ -248,6 +248,24 @@ struct ParameterStatement {
   std::string note{};             ///< where the number is from
 };
 
+/// Parameters (machine/parameters.hpp) with their covariance (SI).
+struct KnownParameters {
+  std::vector<std::string> names;
+  Eigen::MatrixXd covariance;
+};
+
+/// Standard deviations of what a run assumes, besides those of parameters in `ParameterStatement`.
+struct Uncertainty {
+  std::string covariance{};  ///< path of the file with the parameters' covariance, as given; empty: none
+  Location covariance_at{};  ///< in the file
+  std::optional<KnownParameters> known{};  ///< of that file; the caller of `read_machine` reads it
+  double force = 0.3;         ///< of the wrench on the tool, a share of it; one for the whole path
+  double tool_length = 0;     ///< m: along the tool's axis
+  double repeatability = 0;   ///< m: of the tip along each axis of M, independent from place to place
+  double temperature = 0;     ///< K: of the machine with a thermal table
+  Location temperature_at{};  ///< in the file
+};
+
 /// What pulls at masses, and when the controller's zero was set.
 struct Gravity {
   Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
@@ -303,6 +321,7 @@ struct Machine {
       temperature;  ///< degrees Celsius: that of `at_temperature`; its errors have the shift
   std::vector<LoadLimits> load_limits;         ///< by chain; empty: the file gives none
   std::vector<ParameterStatement> parameters;  ///< in the order of the file
+  std::optional<Uncertainty> uncertainty{};    ///< none: results are without bands
 };
 
 /// Whether the machine lists the component as controlled.
@@ -322,7 +341,7 @@ struct ThermalShift {
 ThermalShift thermal_shift(const ThermalTable& table, double temperature);
 
 /// The machine at a temperature inside of its thermal table, which it has: shift and growth become errors at
-/// the beginning and the end of its chains.
+/// the beginning and the end of its chains, in place of those of the temperature that it had.
 Machine at_temperature(const Machine& machine, double temperature);
 
 /// kg, masses in branches of groups included.

@@ -12,6 +12,7 @@
 /// "A1.reversal_mdeg" or "CHAIN.reversal_um": the axis or the chain as `actuator_names` has it; without such
 /// a name "J3.reversal_um". Harmonics are "A1.sin_mdeg", "A1.cos_mdeg", "A1.sin2_mdeg", "A1.cos2_mdeg"; the
 /// error at the position 100 mm or deg of a table is "X.error[100]_um" or "C.error[100]_mdeg".
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -34,6 +35,13 @@ std::vector<Parameter> parameters(const Machine& machine);
 /// The machine with these values (SI) of all its parameters, in the order of `parameters`. Compliances and
 /// masses must be positive. Elements whose values are the same keep their bits.
 Machine with_parameters(const Machine& machine, const std::vector<double>& values);
+
+/// The standard deviation (SI) that the machine states of a parameter, in [parameters] or in its table.
+std::optional<double> stated_deviation(const Machine& machine, const Parameter& parameter);
+
+/// The parameters whose deviations are known: those of `machine.uncertainty->known` with their covariance,
+/// then all others of which the machine states one. Reversals are left out.
+KnownParameters uncertain_parameters(const Machine& machine);
 
 /// How many numbers of a machine file have which source.
 struct NumberSources {

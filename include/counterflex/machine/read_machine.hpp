@@ -45,4 +45,8 @@ std::vector<std::string> structural_notes(const Machine& machine);
 /// line and column for words that a table does not have, a line without T, and a tool that it lists twice.
 std::map<long, double> read_tool_table(std::string_view text, const std::string& file);
 
+/// Reads a file with an [uncertainty] table alone, "counterflex-uncertainty 1", for `machine`. Throws as
+/// `read_machine`.
+Uncertainty read_uncertainty(std::string_view text, const std::string& file, const Machine& machine);
+
 }  // namespace counterflex

@@ -14,7 +14,7 @@ struct UncertainParameters {
   std::vector<double> sigma;
 };
 
-UncertainParameters uncertain_parameters(const Machine& machine) {
+UncertainParameters prior_parameters(const Machine& machine) {
   UncertainParameters result;
   const std::vector<Parameter> all = parameters(machine);
   for (std::size_t i = 0; i < all.size(); ++i) {
@@ -36,7 +36,7 @@ Eigen::MatrixXd scaled_columns(const Eigen::MatrixXd& A, Eigen::VectorXd& scale)
 
 std::vector<CouponPrediction> predict_coupon(const Machine& machine, const Coupon& coupon,
                                              const Measurements& rows, int threads) {
-  const UncertainParameters uncertain = uncertain_parameters(machine);
+  const UncertainParameters uncertain = prior_parameters(machine);
   const States states = nominal_states(machine, rows, threads);
   std::vector<Configuration> loaded;
   const std::vector<Response> at = responses(machine, uncertain.varied, states, threads, loaded);

@@ -12,6 +12,7 @@
 #include "machine/read/read_settings.hpp"
 #include "machine/read/read_shown.hpp"
 #include "machine/read/read_tools.hpp"
+#include "machine/read/read_uncertainty.hpp"
 #include "toml/fields.hpp"
 
 namespace counterflex {
@@ -19,12 +20,11 @@ namespace {
 
 using namespace toml_file;
 
-constexpr std::string_view format = "counterflex-machine 1";
-
-void check_format(const toml::table& document, const Source& source) {
+void check_format(const toml::table& document, const Source& source, std::string_view format,
+                  std::string_view kind) {
   const toml::node* node = document.get("format");
   if (node == nullptr)
-    source.fail_at_start(fmt::format("no format; a machine file begins with format = \"{}\"", format));
+    source.fail_at_start(fmt::format("no format; {} begins with format = \"{}\"", kind, format));
   const auto* text = node->as_string();
   if (text == nullptr || text->get() != format)
     source.fail(*node, fmt::format("format is {}; it must be \"{}\"", seen(*node), format));
@@ -65,12 +65,12 @@ void add_tool_mass(const toml::table& document, const Source& source, Machine& m
 Machine read_machine(std::string_view text, const std::string& file) {
   const Source source(text, file);
   const toml::table document = source.parse();
-  check_format(document, source);
+  check_format(document, source, "counterflex-machine 1", "a machine file");
   check_keys(document,
-             {"format",   "name",       "controlled", "home",       "gravity_m_s2", "gravity_reference",
-              "tool",     "spindle",    "tools",      "work",       "fixture",      "thermal",
-              "program",  "controller", "limits",     "parameters", "springs",      "error_tables",
-              "branches", "templates",  "chain"},
+             {"format",       "name",       "controlled", "home",       "gravity_m_s2", "gravity_reference",
+              "tool",         "spindle",    "tools",      "work",       "fixture",      "thermal",
+              "program",      "controller", "limits",     "parameters", "uncertainty",  "springs",
+              "error_tables", "branches",   "templates",  "chain"},
              "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
@@ -92,11 +92,22 @@ Machine read_machine(std::string_view text, const std::string& file) {
   convert_homes(machine);
   read_load_limits(document, source, machine);
   read_parameters(document, source, machine);
+  machine.uncertainty = toml_file::read_uncertainty(document, source, machine);
   if (!machine.home_X_MP) machine.home_at = source.at(document.get("chain")->as_array()->get(0)->source());
   check_controlled(document, source, machine);
   check_home(document, source, machine);
   leave_out_corrected(machine);
   return machine;
+}
+
+Uncertainty read_uncertainty(std::string_view text, const std::string& file, const Machine& machine) {
+  const Source source(text, file);
+  const toml::table document = source.parse();
+  check_format(document, source, "counterflex-uncertainty 1", "an uncertainty file");
+  check_keys(document, {"format", "uncertainty"}, "an uncertainty file", source);
+  const std::optional<Uncertainty> read = toml_file::read_uncertainty(document, source, machine);
+  if (!read) source.fail_at_start("no [uncertainty]; an uncertainty file has this table");
+  return *read;
 }
 
 Machine load_machine(const std::string& file) {
