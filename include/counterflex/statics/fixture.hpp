@@ -12,4 +12,7 @@ namespace counterflex {
 /// tip at X_MT is at X_MR^-1 X_MT relative to the part.
 Pose deflected_part(const Fixture& fixture, const Vector6& F, const Vector3& p_MC);
 
+/// A wrench on the tool, given at the tip or at the reference point, at a tip at `X_MT`.
+Vector6 wrench_at_tip(const Mechanism& mechanism, const Vector6& F, bool at_platform, const Pose& X_MT);
+
 }  // namespace counterflex

@@ -13,8 +13,10 @@ namespace counterflex {
 /// share it.
 class ParameterTangents {
  public:
-  /// `varied`: indices into `parameters(machine)`. `model` is that of `machine`.
-  ParameterTangents(const Machine& machine, const Model& model, const std::vector<std::size_t>& varied);
+  /// `varied`: indices into `parameters(machine)`. `model` is that of `machine`. `and_load`: the size of the
+  /// load is varied, too, behind the parameters.
+  ParameterTangents(const Machine& machine, const Model& model, const std::vector<std::size_t>& varied,
+                    bool and_load = false);
   ~ParameterTangents();
   ParameterTangents(ParameterTangents&&) noexcept;
 
@@ -23,7 +25,8 @@ class ParameterTangents {
 
   /// Twist of the tip (m, rad; axes of M) by parameter (SI): 6 x as many as are varied. `configuration` is an
   /// equilibrium of the model under `load`, all of whose errors, preloads and weights act; `work` is one of
-  /// `work()`. Of a reversal: for motion in the positive direction; the other way it has the other sign.
+  /// `work()`. Of a reversal: for motion in the positive direction; the other way it has the other sign. Of
+  /// the load's size: the twist by which the tip would move if all of the load came once more.
   Eigen::Matrix<double, 6, Eigen::Dynamic> of_tip(const Configuration& configuration, const Load& load,
                                                   StaticsWork& work) const;
 

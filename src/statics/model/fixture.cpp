@@ -12,4 +12,12 @@ Pose deflected_part(const Fixture& fixture, const Vector6& F, const Vector3& p_M
   return fixture.X_MF * moved * inverse(fixture.X_MF);
 }
 
+Vector6 wrench_at_tip(const Mechanism& mechanism, const Vector6& F, bool at_platform, const Pose& X_MT) {
+  Vector6 at_tip = F;
+  if (!at_platform) return at_tip;
+  const Vector3 arm = X_MT.R * (inverse(mechanism.X_PT) * mechanism.p_EP);
+  at_tip.tail<3>() += arm.cross(Vector3(F.head<3>()));
+  return at_tip;
+}
+
 }  // namespace counterflex

@@ -149,6 +149,7 @@ struct ParameterTangents::Impl {
   std::vector<VariedParameter> varied;
   std::vector<PartPlace> actuators;
   Eigen::MatrixXd offsets;  ///< actuators x varied: tangents of zeros that were set under weight
+  bool and_load = false;
 
   Configuration configuration(const Configuration& found) const {
     Configuration result{found.X_MP, {}};
@@ -160,8 +161,8 @@ struct ParameterTangents::Impl {
 };
 
 ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
-                                     const std::vector<std::size_t>& varied)
-    : impl_(std::make_unique<Impl>(Impl{model.mechanism, machine, {}, {}, {}, {}})) {
+                                     const std::vector<std::size_t>& varied, bool and_load)
+    : impl_(std::make_unique<Impl>(Impl{model.mechanism, machine, {}, {}, {}, {}, and_load})) {
   const std::vector<ParameterPlace> all = parameter_places(impl_->machine);
   const std::vector<Parameter> values = parameters(machine);
   for (const std::size_t index : varied)
@@ -236,8 +237,9 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
   HeldSteps steps;
   steps.is_held.assign(system.variables.size(), false);
   const auto n = static_cast<Eigen::Index>(impl.varied.size());
-  steps.held.setZero(static_cast<Eigen::Index>(system.variables.size()), n);
-  steps.gradient.setZero(static_cast<Eigen::Index>(system.variables.size()), n);
+  const Eigen::Index columns = n + (impl.and_load ? 1 : 0);
+  steps.held.setZero(static_cast<Eigen::Index>(system.variables.size()), columns);
+  steps.gradient.setZero(static_cast<Eigen::Index>(system.variables.size()), columns);
   std::size_t mass = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     const VariedParameter& varied = impl.varied[static_cast<std::size_t>(k)];
@@ -262,6 +264,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
     }
     if (varied.kind == ParameterKind::position || varied.kind == ParameterKind::orientation)
       for (int i = 0; i < 6; ++i) steps.is_held[static_cast<std::size_t>(first + i)] = true;
+  }
+  if (impl.and_load) {  // the gradient is linear in it
+    const Problem unloaded{{Vector6::Zero(), load.at_platform}, stage, nullptr};
+    steps.gradient.col(n) =
+        system.gradient - whole_system(impl.model, configuration, unloaded, work.impl()).gradient;
   }
   const Eigen::MatrixXd moved = solve_held(system, steps, units);
   return tip_from_platform(impl.model.mechanism, configuration.X_MP) * moved.bottomRows<6>();

@@ -1,0 +1,85 @@
+#include "counterflex/statics/tip_uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/statics/fixture.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Indices of the parameters' names, which the machine has.
+std::vector<std::size_t> indices_of(const Machine& machine, const std::vector<std::string>& names) {
+  const std::vector<Parameter> all = parameters(machine);
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names)
+    indices.push_back(static_cast<std::size_t>(
+        std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; }) -
+        all.begin()));
+  return indices;
+}
+
+/// The twist of the tip relative to the part by what the part deflects.
+Vector6 part_twist(const Mechanism& mechanism, const Load& load, const Pose& X_MT) {
+  const Vector6 F = wrench_at_tip(mechanism, load.F, load.at_platform, X_MT);
+  return difference(inverse(deflected_part(*mechanism.fixture, F, X_MT.p)) * X_MT, X_MT);
+}
+
+}  // namespace
+
+TipUncertainty::TipUncertainty(const Machine& machine, const Model& model)
+    : mechanism_(model.mechanism),
+      uncertainty_(*machine.uncertainty),
+      known_(uncertain_parameters(machine)),
+      tangents_(machine, model, indices_of(machine, known_.names), true) {
+  if (uncertainty_.temperature == 0) return;
+  const ThermalTable& table = *machine.thermal;
+  constexpr double step = 1e-3;  // K: shift and growth are linear between the temperatures of the table
+  const double low = std::max(*machine.temperature - step, table.temperatures.front()),
+               high = std::min(*machine.temperature + step, table.temperatures.back());
+  const ThermalShift from = thermal_shift(table, low), to = thermal_shift(table, high);
+  shift_ = (to.shift - from.shift) / (high - low);
+  growth_ = (to.growth - from.growth) / (high - low);
+}
+
+TipCovariance TipUncertainty::of_tip(const Configuration& configuration, const Load& load,
+                                     StaticsWork& work) const {
+  const Eigen::Matrix<double, 6, Eigen::Dynamic> J = tangents_.of_tip(configuration, load, work);
+  const Pose X_MT = tip(mechanism_, configuration);
+  const Eigen::Index n = known_.covariance.rows();
+  Vector6 by_force = J.col(n);
+  if (mechanism_.fixture) by_force += part_twist(mechanism_, load, X_MT);
+  TipCovariance result;
+  result.parameters = J.leftCols(n) * known_.covariance * J.leftCols(n).transpose();
+  result.force = uncertainty_.force * uncertainty_.force * by_force * by_force.transpose();
+  const auto squared = [](double x) { return x * x; };
+  const Vector3 axis = X_MT.R.col(2), by_temperature = shift_ - growth_ * axis;
+  result.others.topLeftCorner<3, 3>() =
+      squared(uncertainty_.repeatability) * Matrix3::Identity() +
+      squared(uncertainty_.tool_length) * axis * axis.transpose() +
+      squared(uncertainty_.temperature) * by_temperature * by_temperature.transpose();
+  return result;
+}
+
+double band(const Vector3& d, const Matrix3& C) {
+  const Vector3 u = band_direction(d, C);
+  return 2 * std::sqrt(std::max(u.dot(C * u), 0.0));
+}
+
+Vector3 band_direction(const Vector3& d, const Matrix3& C) {
+  const double size = d.norm();
+  if (size * size > 2 * std::sqrt(std::max(d.dot(C * d), 0.0))) return d / size;
+  return Eigen::SelfAdjointEigenSolver<Matrix3>(C).eigenvectors().col(2);
+}
+
+TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, const ToolModels& tools) {
+  TipUncertainties all;
+  if (!machine.uncertainty) return all;
+  all.emplace(&model, TipUncertainty(machine, model));
+  for (const auto& [number, with] : tools)
+    all.emplace(&with, TipUncertainty(with_tool(machine, machine.tools.at(number)), with));
+  return all;
+}
+
+}  // namespace counterflex

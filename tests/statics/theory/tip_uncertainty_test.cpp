@@ -1,0 +1,178 @@
+#include "counterflex/statics/tip_uncertainty.hpp"
+
+#include <doctest/doctest.h>
+
+#include <cmath>
+
+#include "counterflex/machine/create.hpp"
+#include "counterflex/machine/read_machine.hpp"
+#include "counterflex/statics/fixture.hpp"
+
+using namespace counterflex;
+
+namespace {
+
+Machine made_with(MachineKind kind, const std::string& more) {
+  MachineFacts facts;
+  facts.kind = kind;
+  if (kind == MachineKind::robot6r) facts.robot = "ur10";
+  return read_machine(machine_file(facts) + more, "made.toml");
+}
+
+/// A machine away from home, under a load.
+struct Posed {
+  Machine machine;
+  Eigen::VectorXd drho;
+  Load load;
+
+  Equilibrium solve(const Model& model) const {
+    StaticsWork work(model.mechanism);
+    const NominalResult nominal =
+        nominal_forward(model, model.home, actuator_values(model.mechanism, model.home) + drho);
+    REQUIRE(nominal.status == Status::converged);
+    const Equilibrium found = solve_forward(model, nominal.configuration, load, Stage{}, work);
+    REQUIRE(found.status == Status::converged);
+    return found;
+  }
+  Pose tip_now() const {
+    const Model model = prepare(machine);
+    return tip(model.mechanism, solve(model).configuration);
+  }
+};
+
+Posed posed(const Machine& machine) {
+  Posed result{machine, {}, {}};
+  const auto count = static_cast<Eigen::Index>(prepare(machine).mechanism.travel.size());
+  result.drho.resize(count);
+  for (Eigen::Index a = 0; a < count; ++a) result.drho[a] = a % 2 == 0 ? 0.012 : -0.009;
+  result.load.F << 80, -50, 120, 1, -2, 0.5;
+  return result;
+}
+
+TipCovariance covariance_of(const Posed& at) {
+  const Model model = prepare(at.machine);
+  const TipUncertainty uncertainty(at.machine, model);
+  StaticsWork work = uncertainty.work();
+  return uncertainty.of_tip(at.solve(model).configuration, at.load, work);
+}
+
+/// Relative difference of two matrices in position and rotation.
+double apart(const Matrix6& a, const Matrix6& b) {
+  return (a - b).norm() / b.norm();
+}
+
+Matrix6 square(const Vector6& v) {
+  return v * v.transpose();
+}
+
+}  // namespace
+
+TEST_CASE("the force's part of a covariance is that of two solves with a little more and less force") {
+  for (const MachineKind kind : {MachineKind::mill3, MachineKind::robot6r, MachineKind::delta}) {
+    CAPTURE(static_cast<int>(kind));
+    const Posed at = posed(made_with(kind, "\n[uncertainty]\nforce_percent = 20\n"));
+    Posed more = at, less = at;
+    more.load.F *= 1.001;
+    less.load.F *= 0.999;
+    const Vector6 by_force = difference(more.tip_now(), less.tip_now()) / 0.002;
+    CHECK(apart(covariance_of(at).force, square(0.2 * by_force)) < 1e-4);
+  }
+}
+
+TEST_CASE("parameters with deviations in the file count, each with its own tangent") {
+  Machine machine = made_with(MachineKind::mill3, "\n[uncertainty]\n");
+  machine.parameters.clear();
+  const std::vector<Parameter> all = parameters(machine);
+  std::vector<double> values;
+  for (const Parameter& parameter : all) values.push_back(parameter.value);
+  Matrix6 expected = Matrix6::Zero();
+  Posed at = posed(machine);
+  for (const std::size_t i : {std::size_t{0}, all.size() / 2, all.size() - 1}) {
+    if (all[i].kind == ParameterKind::reversal) continue;
+    const bool is_scale = all[i].kind == ParameterKind::compliance || all[i].kind == ParameterKind::mass;
+    const double step = is_scale ? 1e-3 * all[i].value : 1e-5, sigma = 3 * step;
+    at.machine.parameters.push_back({all[i].name, NumberSource::measured, sigma});
+    std::vector<double> moved = values;
+    Posed up = at, down = at;
+    moved[i] = values[i] + step;
+    up.machine = with_parameters(machine, moved);
+    moved[i] = values[i] - step;
+    down.machine = with_parameters(machine, moved);
+    expected += square(sigma / (2 * step) * difference(up.tip_now(), down.tip_now()));
+  }
+  REQUIRE(at.machine.parameters.size() >= 2);
+  CHECK(apart(covariance_of(at).parameters, expected) < 1e-4);
+}
+
+TEST_CASE("a known covariance replaces the deviations of its parameters, with its correlation") {
+  Machine machine = made_with(MachineKind::mill3, "\n[uncertainty]\n");
+  machine.parameters.clear();
+  const std::vector<Parameter> all = parameters(machine);
+  machine.parameters.push_back({all[0].name, NumberSource::measured, 1e3});
+  KnownParameters known{{all[0].name, all[1].name}, Eigen::Matrix2d{{4e-12, 2e-12}, {2e-12, 9e-12}}};
+  machine.uncertainty->known = known;
+  const Posed at = posed(machine);
+  const Model model = prepare(machine);
+  const ParameterTangents tangents(machine, model, {0, 1});
+  StaticsWork work = tangents.work();
+  const Eigen::MatrixXd J = tangents.of_tip(at.solve(model).configuration, at.load, work);
+  CHECK(apart(covariance_of(at).parameters, J * known.covariance * J.transpose()) < 1e-12);
+}
+
+TEST_CASE("tool length counts along the tool's axis, repeatability in all directions") {
+  const Posed at =
+      posed(made_with(MachineKind::robot6r,
+                      "\n[uncertainty]\ntool_length_um = 30\nrepeatability_um = 4\nforce_percent = 0\n"));
+  const Vector3 axis = at.tip_now().R.col(2);
+  Matrix6 expected = Matrix6::Zero();
+  expected.topLeftCorner<3, 3>() = 900e-12 * axis * axis.transpose() + 16e-12 * Matrix3::Identity();
+  const TipCovariance found = covariance_of(at);
+  CHECK(apart(found.others, expected) < 1e-12);
+  CHECK(found.force.isZero(0));
+}
+
+TEST_CASE("a temperature shifts the tip as the table of the machine does") {
+  const std::string table =
+      "\n[thermal]\ntemperature_C = [20, 25, 30]\nx_um = [0, 10, 40]\ny_um = [0, -5, -6]\nspindle_um = [0, "
+      "20, "
+      "30]\n\n[uncertainty]\ntemperature_K = 0.5\nforce_percent = 0\n";
+  const Machine machine = made_with(MachineKind::mill3, table);
+  Posed at = posed(at_temperature(machine, 22)), warm = at, cold = at;
+  warm.machine = at_temperature(machine, 22.5);
+  cold.machine = at_temperature(machine, 21.5);
+  const Vector3 shift = warm.tip_now().p - cold.tip_now().p;
+  const Matrix3 expected = 0.25 * shift * shift.transpose();
+  CHECK((covariance_of(at).others.topLeftCorner<3, 3>() - expected).norm() < 1e-4 * expected.norm());
+}
+
+TEST_CASE("a machine at a temperature takes another one as if it had none") {
+  const Machine machine = made_with(
+      MachineKind::mill3, "\n[thermal]\ntemperature_C = [20, 30]\nx_um = [0, 40]\nspindle_um = [0, 30]\n");
+  const Posed once = posed(at_temperature(machine, 27)),
+              twice = posed(at_temperature(at_temperature(machine, 21), 27));
+  CHECK((once.tip_now().p - twice.tip_now().p).norm() == 0);
+}
+
+TEST_CASE("where the part deflects, its twist belongs to the force") {
+  const Posed at = posed(made_with(MachineKind::mill3,
+                                   "\n[fixture]\nxyz_mm = [0, 0, -50]\nstiffness_N_per_um = [20, 30, 40]\n\n"
+                                   "[uncertainty]\nforce_percent = 10\n"));
+  const auto relative = [&](double factor) {
+    Posed other = at;
+    other.load.F *= factor;
+    const Pose X = other.tip_now();
+    return inverse(deflected_part(*at.machine.fixture, other.load.F, X.p)) * X;
+  };
+  const Vector6 by_force = difference(relative(1.001), relative(0.999)) / 0.002;
+  CHECK(apart(covariance_of(at).force, square(0.1 * by_force)) < 1e-4);
+}
+
+TEST_CASE("a band is along the deviation, or in the most uncertain direction where it is wider than that") {
+  const Matrix3 C = Vector3(1, 4, 9).asDiagonal();
+  CHECK(band({10, 0, 0}, C) == doctest::Approx(2));
+  CHECK(band({0, 10, 0}, C) == doctest::Approx(4));
+  CHECK(band({1.9, 0, 0}, C) == doctest::Approx(6));
+  CHECK(band({0, 0, 0}, C) == doctest::Approx(6));
+  CHECK(band({3, 4, 0}, C) == doctest::Approx(2 * std::sqrt((9.0 + 4 * 16) / 25)));
+  CHECK(std::abs(band_direction({0, 0, 0}, C).z()) == doctest::Approx(1));
+}
