@@ -29,7 +29,12 @@ bool is_larger(double value, double than) {
 LoadPlace LoadPlaces::place_of(const Job& job, const Waypoint& w) const {
   const Segment& segment = job.path.segments[w.segment];
   const Vector3 target = original_command(job, segment.frame, w.p_MT) + w.correction.head<3>();
-  return {count_, w, target, {w.wrench, job.forces.at_platform()}, &model_of(job, segment)};
+  return {count_,
+          w,
+          target,
+          {w.wrench, job.forces.at_platform()},
+          &model_of(job, segment),
+          job.program.moves[segment.move].tool};
 }
 
 void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
@@ -107,15 +112,7 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
     for (std::size_t i = 0; i < count; ++i) {
       if (answers[i].status != Status::converged) continue;
       const LoadPlace& place = places[begin + i];
-      Eigen::VectorXd joints = answers[i].rho;
-      if (has_reversals(*place.model)) joints += lag_of(place.model->mechanism, place.at.directions);
-      const NominalResult commanded = solver.nominal({place.model, place.target, requests[i].R}, joints);
-      if (commanded.status != Status::converged) continue;
-      StaticsWork work(place.model->mechanism);
-      Equilibrium loaded =
-          equilibrium_at(*place.model, commanded.configuration, place.load, {}, answers[i].X_MT, work);
-      if (loaded.status != Status::converged)
-        loaded = solve_forward(*place.model, commanded.configuration, place.load, {}, work);
+      const Equilibrium loaded = solver.equilibrium(requests[i], answers[i]);
       if (loaded.status == Status::converged)
         solved[begin + i] = {place.at.s, place.at.line,
                              loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};

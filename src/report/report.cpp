@@ -300,6 +300,21 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   return report;
 }
 
+UncertaintyReport uncertainty_report(const Machine& machine, const LoadPlace* worst,
+                                     const std::optional<TipCovariance>& covariance) {
+  UncertaintyReport report{*machine.uncertainty, uncertain_parameters(machine).names.size(),
+                           parameters(machine).size()};
+  if (worst == nullptr || !covariance) return report;
+  const Matrix3 all = covariance->sum().topLeftCorner<3, 3>();
+  const Vector3 u = band_direction(worst->at.before.head<3>(), all);
+  const auto band_mm = [&](const Matrix6& C) {
+    return 2 * std::sqrt(std::max(u.dot(C.topLeftCorner<3, 3>() * u), 0.0)) / mm;
+  };
+  report.at_worst = {band_mm(covariance->parameters), band_mm(covariance->force), band_mm(covariance->others),
+                     band_mm(covariance->sum())};
+  return report;
+}
+
 void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
                      const std::vector<OtherForce>& higher, const std::vector<OtherForce>& lower,
                      const std::vector<OtherForce>& without) {

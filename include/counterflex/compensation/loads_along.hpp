@@ -24,6 +24,7 @@ struct LoadPlace {
   Vector3 target = Vector3::Zero();  ///< the written one, or the original where nothing was corrected; M (m)
   Load load;
   const Model* model = nullptr;  ///< with the tool in the spindle
+  long tool = 0;                 ///< its number; 0: none known
 };
 
 /// Takes the waypoints of a path in their order, those between the ends of pieces, too, and keeps a part of

@@ -16,6 +16,7 @@
 #include "counterflex/program/rewrite.hpp"
 #include "counterflex/statics/batch_solver.hpp"
 #include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/tip_uncertainty.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
@@ -60,6 +61,7 @@ struct Job {
   std::optional<TipPosition> from{};    ///< of a window: where the path before it ended
   /// How actuators move along the path; none: not known, their joints do not lag.
   const PathDirections* directions = nullptr;
+  const TipUncertainties* uncertainties = nullptr;  ///< by model; none: waypoints have no covariance
 };
 
 /// How actuators move at a fraction of a move, on the side that ends or begins there.
@@ -143,6 +145,7 @@ struct Waypoint {
   Eigen::VectorXd rho;                   ///< actuators of the emitted target (m, rad)
   Directions directions;                 ///< in which they came there
   BoxedOptional<Causes> causes;          ///< where they were asked for and `before` is known
+  BoxedOptional<Matrix6> covariance;     ///< of the deviations, where the job has uncertainties
   Status status = Status::converged;
   int iterations = 0;
   int corrected_line = 0;  ///< of the corrected program; 0: none

@@ -61,10 +61,11 @@ struct RunInput {
   const ForceSource& source;
   const CompensationOptions& options;
   const ReadOptions& read;
-  const ToolModels* tools = nullptr;    ///< as for a job
-  const StartTables* starts = nullptr;  ///< as for a job
-  Directions first_directions{};        ///< of actuators before they have moved:
-                                        ///< `first_directions`
+  const ToolModels* tools = nullptr;                ///< as for a job
+  const StartTables* starts = nullptr;              ///< as for a job
+  Directions first_directions{};                    ///< of actuators before they have moved:
+                                                    ///< `first_directions`
+  const TipUncertainties* uncertainties = nullptr;  ///< as for a job
 };
 
 /// A window with its path and forces. It does not change while others are read.

@@ -28,10 +28,12 @@ struct CsvColumns {
   /// geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_.
   bool attribution = true;
   bool corrected = true;  ///< after_, correction_: not for a prediction
+  /// The last columns before_band_mm and after_band_mm, which are missing without it.
+  bool bands = false;
 };
 
 /// The names of the columns, in a line.
-std::string csv_header();
+std::string csv_header(const CsvColumns& columns = {});
 
 /// One row a waypoint that is not `between`, in order; `next_index` is that of the first row (a file's first
 /// has 0) and becomes that of the row after the last; `cutting` is 0 or 1. Rotations of the correction follow

@@ -65,8 +65,10 @@ enum class Quantity : std::uint8_t {
   force_y,
   force_z,
   force,
+  before_band,  ///< half the width, k = 2
+  after_band,
 };
-inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::force) + 1;
+inline constexpr std::size_t quantity_count = static_cast<std::size_t>(Quantity::after_band) + 1;
 
 /// "before_x_mm", "before_mm", "before_rotation_deg", "force_N": as the page's data has it.
 std::string_view name_of(Quantity quantity);

@@ -7,6 +7,7 @@
 #include <variant>
 #include <vector>
 
+#include "counterflex/compensation/sampled_uncertainty.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/program/boxed_optional.hpp"
@@ -48,6 +49,7 @@ struct RunFacts {
 /// Where a line's largest deviation is.
 struct WorstPlace {
   bool known = false;
+  std::optional<double> band_mm{};     ///< of the deviation, k = 2
   double s_mm = 0;                     ///< cutting path length
   Vector3 place_mm = Vector3::Zero();  ///< wanted tip in M
   std::int32_t operation = -1;         ///< index into RunReport::operations; -1: not known
@@ -163,6 +165,18 @@ struct OperationReport {
   std::optional<DeviationStatistics> before, after;  ///< none where nothing was solved
 };
 
+/// How uncertain the deviations are. Bands have k = 2.
+struct UncertaintyReport {
+  Uncertainty stated;
+  std::size_t known_parameters = 0, parameters = 0;  ///< those without a deviation count as exact
+  /// Where the deviation before is largest (mm): the bands of its parts, and of all of them.
+  struct AtWorst {
+    double parameters_mm = 0, force_mm = 0, others_mm = 0, all_mm = 0;
+  };
+  std::optional<AtWorst> at_worst{};
+  std::optional<SampledBands> sampled{};  ///< with --samples
+};
+
 /// Size of the program text.
 struct TextSize {
   std::size_t blocks = 0;
@@ -244,6 +258,7 @@ struct RunReport {
   ForceSummary forces;
   std::optional<Capped<ReversalRow>> reversals{};  ///< where axes have lost motion
   std::optional<PathLoads> loads{};                ///< where they were solved, see `add_loads`
+  std::optional<UncertaintyReport> uncertainty{};  ///< for a machine that states one
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words
@@ -270,6 +285,10 @@ struct RunContext {
 
 /// Adds the loads along the run's path, and a warning for every limit of `machine` that they exceed.
 void add_loads(RunReport& report, LoadsAlong along, const Machine& machine);
+
+/// What is known of the uncertainty where `worst` has the largest deviation before; `covariance` there.
+UncertaintyReport uncertainty_report(const Machine& machine, const LoadPlace* worst,
+                                     const std::optional<TipCovariance>& covariance);
 
 /// Fills what `places` become under the other forces of a sensitivity, and warns where the machine has no
 /// stable equilibrium. `higher`, `lower`: by place.

@@ -18,6 +18,15 @@ namespace counterflex {
 /// different processors agree to a hundredth of it.
 inline constexpr double indistinct_mm = 1e-7;
 
+/// Bands of deviations, k = 2 (see `band`), where covariances are known.
+struct BandStatistics {
+  double at_max_mm = 0;   ///< of the largest deviation
+  double largest_mm = 0;  ///< the widest band of all
+  int largest_line = 0;
+  double rms_mm = 0;         ///< over the cutting length
+  double below_percent = 0;  ///< of that length: the deviation is not larger than its band
+};
+
 struct DeviationStatistics {
   double max_mm = 0;  ///< largest norm of the position deviation
   /// Rms, mean and p95 of that norm weigh every sample by its share of the cutting length.
@@ -30,6 +39,7 @@ struct DeviationStatistics {
   double max_along_mm = 0;                ///< along the path
   double max_across_mm = 0;     ///< across the path, square to the tool axis too: the error of a wall
   double max_tool_axis_mm = 0;  ///< along the tool axis: the error of a floor
+  std::optional<BandStatistics> bands{};
 };
 
 /// One place where the deviation is known.
@@ -40,6 +50,7 @@ struct DeviationSample {
   Vector3 tool_axis = Vector3::UnitZ();  ///< unit, axes of M
   double weight = 0;                     ///< share of the cutting length (m); 0 counts in the maxima alone
   int line = 0;
+  const Matrix6* covariance = nullptr;  ///< of the deviation; none: not known
 };
 
 /// Parts of a position deviation, not negative, in its unit. `across` is square to path and tool axis; where
@@ -87,8 +98,9 @@ class DeviationTally {
   double percentile(double share) const;
 
   DeviationStatistics maxima_;
-  double weight_ = 0, sum_ = 0, sum_of_squares_ = 0;  ///< m, m mm, m mm2
-  double weight_of_none_ = 0;                         ///< of samples without a deviation
+  double weight_ = 0, sum_ = 0, sum_of_squares_ = 0;               ///< m, m mm, m mm2
+  double band_weight_ = 0, below_ = 0, sum_of_squared_bands_ = 0;  ///< m, m, m mm2
+  double weight_of_none_ = 0;                                      ///< of samples without a deviation
   Histogram weight_by_bin_;
   std::size_t samples_ = 0;
 };

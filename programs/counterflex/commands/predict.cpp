@@ -17,7 +17,7 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
-  RunFiles files(paths, {.corrected = false});
+  RunFiles files(paths, {.corrected = false, .bands = !run->uncertainties.empty()});
   RunTally tally = tally_for(options, *run);
   const std::optional<Failure> failure = predict_all(*run, tally, files, console);
   return deliver(options, *run, report_prediction(run->context(), tally, failure), tally, files, console);

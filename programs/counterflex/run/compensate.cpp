@@ -112,7 +112,8 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   prepare_writing(options, *run);
-  RunFiles files(paths, {.attribution = run->facts.attribution}, options.hash_outputs);
+  RunFiles files(paths, {.attribution = run->facts.attribution, .bands = !run->uncertainties.empty()},
+                 options.hash_outputs);
   if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();
   if (run->file.lines) files.count_loop();
   RunTally tally = tally_for(options, *run);

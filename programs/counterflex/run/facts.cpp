@@ -31,6 +31,7 @@ std::vector<OptionValue> reading_options(const Options& options, const Run& run)
   if (options.evaluate) values.push_back({"evaluate", true});
   if (options.expand_subprograms) values.push_back({"expand-subprograms", true});
   for (const std::string& work : options.work) values.push_back({"work", work});
+  if (options.samples > 0) values.push_back({"samples", static_cast<double>(options.samples)});
   if (options.temperature) values.push_back({"temperature-C", *options.temperature});
   for (const auto& [number, length_mm] : options.tool_lengths_mm)
     values.push_back({"tool-length", fmt::format("T{}={}", number, length_mm)});
@@ -51,6 +52,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   const auto& lists = run.file.data_lists;
   facts.inputs.insert(facts.inputs.end(), lists.begin(), lists.end());
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
+  facts.inputs.insert(facts.inputs.end(), run.uncertainty_files.begin(), run.uncertainty_files.end());
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
   for (InputFile& input : facts.inputs) input.path = without_controls(input.path);
   facts.min_block_ms = options.min_block_ms;

@@ -331,7 +331,7 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
   open(csv_, paths.report_csv);
   open(json_, paths.report_json);
   open(page_, paths.report_page);
-  if (csv_) csv_->write(csv_header());
+  if (csv_) csv_->write(csv_header(columns));
 }
 
 void RunFiles::write_held() {

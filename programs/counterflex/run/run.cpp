@@ -22,6 +22,7 @@
 #include "run/program_axes.hpp"
 #include "run/reading.hpp"
 #include "run/sanity.hpp"
+#include "run/uncertainty.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -169,9 +170,11 @@ RunReport without_warnings(RunReport report) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model,   work.frames, ignored,      force_input.source,
-          options,         read,        &tool_models, starts ? &*starts : nullptr,
-          first_directions};
+  return {machine.model,    work.frames,
+          ignored,          force_input.source,
+          options,          read,
+          &tool_models,     starts ? &*starts : nullptr,
+          first_directions, uncertainties.empty() ? nullptr : &uncertainties};
 }
 
 RunContext Run::context() const {
@@ -212,6 +215,8 @@ std::unique_ptr<Run> prepared_run(const Options& options, Console& console,
   run->is_corrected = scan.is_corrected;
   const std::vector<Remark> axis_warnings = place_program_axes(run->program, run->machine);
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
+  run->uncertainty_files = read_uncertainty_files(options, run->machine.machine);
+  run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models);
   forces.refuse_unread();
   run->starts.emplace();
   refuse_orientation(*run);
@@ -306,6 +311,22 @@ RunTally tally_for(const Options& options, const Run& run) {
   return RunTally(run.facts.min_block_ms, std::move(curves), tool_sizes(run));
 }
 
+namespace {
+
+void add_uncertainty(const Options& options, const Run& run, RunReport& report,
+                     const std::vector<LoadPlace>& places) {
+  const Machine& machine = run.machine.machine;
+  const LoadPlace* worst = run.load_places.worst_before();
+  report.uncertainty = uncertainty_report(
+      machine, worst,
+      worst != nullptr ? solve_covariance(*worst, run.uncertainties, &*run.starts) : std::nullopt);
+  if (options.samples > 0)
+    report.uncertainty->sampled =
+        sample_bands(machine, run.program.tools, places, options.samples, run.options.threads);
+}
+
+}  // namespace
+
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
                   RunFiles& files) {
   const MachineInput& on = run.machine;
@@ -325,6 +346,7 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
     add_sensitivity(report, places, under(1 + force_change), under(1 - force_change), under(0));
   if (report.failure && options.command != Command::verify && (options.report || options.json))
     report.failure_place = solve_failed_line(run, report.failure->line);
+  if (!run.uncertainties.empty()) add_uncertainty(options, run, report, places);
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);

@@ -29,6 +29,9 @@ struct Run {
   ReadOptions read;  ///< used for the program
   RunFacts facts;
   ToolModels tool_models;  ///< of the program's tools
+  std::vector<InputFile> uncertainty_files{};
+  TipUncertainties
+      uncertainties{};  ///< of the machine with each tool; empty: the machine states no uncertainty
   std::optional<StartTables> starts{};
   Directions first_directions{};  ///< in which actuators with lost motion move first
   LoadPlaces load_places{};       ///< of the path, if loads are requested

@@ -84,10 +84,10 @@ void add_run(CLI::App& app, Options& options) {
   add_forces(app, options);
   add_setting(app, options, "blend-mm");
   add_reading(app, options);
-  add_settings(
-      app, options,
-      {"method", "tolerance-mm", "tolerance-tilt-deg", "tolerance-spin-deg", "max-correction-mm",
-       "accept-partial", "decimals", "threads", "min-block-ms", "report", "plot", "force-overwrite"});
+  add_settings(app, options,
+               {"method", "tolerance-mm", "tolerance-tilt-deg", "tolerance-spin-deg", "max-correction-mm",
+                "accept-partial", "decimals", "uncertainty", "samples", "threads", "min-block-ms", "report",
+                "plot", "force-overwrite"});
   add_config(app, options);
   add_output(app, options, "Print nothing but errors");
 }

@@ -153,6 +153,8 @@ struct Options {
   std::optional<std::string> tool_table;   ///< a file
   std::map<long, double> tool_lengths_mm;  ///< of --tool-length
   std::optional<double> temperature;       ///< degrees Celsius
+  std::optional<std::string> uncertainty;  ///< a file
+  std::size_t samples = 0;                 ///< of machines, for bands; 0: to first order alone
 
   Method method = Method::direct;
   double tolerance = 5e-6;               ///< m

@@ -147,6 +147,14 @@ const std::array option_table{
         "temperature-C", "--temperature-C", "TEMPERATURE", group::common,
         "The temperature at which [thermal] of the machine file shifts the machine", "", false,
         [](Text name, Text text, Options& options) { options.temperature = number_of(name, text); }},
+    SettingOption{"uncertainty", "--uncertainty", "FILE", group::common,
+                  "A file with [uncertainty], in place of the table of the machine file", "", false,
+                  [](Text, Text text, Options& options) { options.uncertainty = text; }},
+    SettingOption{"samples", "--samples", "N", group::correction,
+                  "Check the bands of [uncertainty] with N machines drawn from it (default 0)", "0", false,
+                  [](Text name, Text text, Options& options) {
+                    options.samples = static_cast<std::size_t>(integer_of(name, text, 0, 100'000));
+                  }},
     SettingOption{"method", "--method", "direct|nested|linear", group::correction,
                   "How targets are solved (default direct)", "direct", false, take_method},
     SettingOption{"tolerance-mm", "--tolerance-mm", "LENGTH", group::common,

@@ -65,6 +65,27 @@ std::vector<Waypoint> waypoints_of(const Job& job, const PieceSamples& all) {
   return waypoints;
 }
 
+// Of the waypoints before `count`: at an equilibrium that is not found again they stay unknown.
+void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& all, std::size_t count,
+                     std::vector<Waypoint>& waypoints) {
+  const Model* last = nullptr;
+  const TipUncertainty* uncertainty = nullptr;
+  std::optional<StaticsWork> work;
+  for (std::size_t i = 0; i < count; ++i) {
+    const ForwardRequest& request = all.requests[all.order[i]];
+    if (!knows_before(waypoints[i])) continue;
+    if (request.model != last) {
+      last = request.model;
+      uncertainty = &job.uncertainties->at(last);
+      work.emplace(uncertainty->work());
+    }
+    const Equilibrium found = solver.equilibrium(request, all.answers[all.order[i]]);
+    if (found.status != Status::converged) continue;
+    const Load load{request.F, job.forces.at_platform()};
+    waypoints[i].covariance = uncertainty->of_tip(found.configuration, load, *work).sum();
+  }
+}
+
 // What the original program does, and the causes, at the waypoints before the first that fails.
 void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all, const Questions& questions,
                    std::vector<Waypoint>& waypoints) {
@@ -88,6 +109,7 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
     add_before(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
   if (questions.attribution)
     add_causes(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
+  if (job.uncertainties != nullptr) add_covariances(job, solver, all, solved(), waypoints);
   if (solved() < waypoints.size()) waypoints.resize(solved() + 1);
 }
 

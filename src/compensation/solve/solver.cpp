@@ -122,12 +122,7 @@ void PlaceSolver::wanted(std::span<const TipPosition> requests, std::span<Wanted
 Pose PlaceSolver::part(const Model& model, const Vector6& F, const Pose& X_MT) {
   const Mechanism& mechanism = model.mechanism;
   if (!mechanism.fixture) return {};
-  Vector6 at_tip = F;
-  if (at_platform_) {
-    const Vector3 arm = X_MT.R * (inverse(mechanism.X_PT) * mechanism.p_EP);
-    at_tip.tail<3>() += arm.cross(Vector3(F.head<3>()));
-  }
-  return deflected_part(*mechanism.fixture, at_tip, X_MT.p);
+  return deflected_part(*mechanism.fixture, wrench_at_tip(mechanism, F, at_platform_, X_MT), X_MT.p);
 }
 
 void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<TargetAnswer> answers,
@@ -216,6 +211,20 @@ void PlaceSolver::machine_forwards(std::span<const ForwardRequest> requests, std
       if (answers[i].status != Status::converged && stop == StopAt::first_failure) return;
     }
   }
+}
+
+Equilibrium PlaceSolver::equilibrium(const ForwardRequest& request, const ForwardAnswer& answer) {
+  const Model& model = *request.model;
+  Eigen::VectorXd joints = request.rho != nullptr ? *request.rho : answer.rho;
+  if (has_reversals(model)) joints += lag_of(model.mechanism, request.directions);
+  const NominalResult commanded = nominal({request.model, request.target, request.R}, joints);
+  if (commanded.status != Status::converged) return {};
+  const Load load{request.F, at_platform_};
+  StaticsWork& work = of(model).scratch();
+  Equilibrium found = equilibrium_at(model, commanded.configuration, load, request.stage, answer.X_MT, work);
+  if (found.status != Status::converged)
+    found = solve_forward(model, commanded.configuration, load, request.stage, work);
+  return found;
 }
 
 std::vector<Eigen::VectorXd> PlaceSolver::actuators(std::span<const TipPosition> positions) {

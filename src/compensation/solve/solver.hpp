@@ -85,6 +85,10 @@ class PlaceSolver {
   /// fixture deflects.
   Pose part(const Model& model, const Vector6& F, const Pose& X_MT);
 
+  /// The equilibrium behind the answer to a request under the whole load, which has `R` or home's
+  /// orientation: not converged where it is not found.
+  Equilibrium equilibrium(const ForwardRequest& request, const ForwardAnswer& answer);
+
   /// The actuators of the nominal machine at positions (m, rad); rotary ones but for full turns. Empty where
   /// it does not reach one.
   std::vector<Eigen::VectorXd> actuators(std::span<const TipPosition> positions);

@@ -43,7 +43,8 @@ Job JobWindows::job(const JobWindow& window) const {
           .tools = input_.tools,
           .starts = input_.starts,
           .from = window.from,
-          .directions = has_reversals(input_.model) ? &window.directions : nullptr};
+          .directions = has_reversals(input_.model) ? &window.directions : nullptr,
+          .uncertainties = input_.uncertainties};
 }
 
 Directions first_directions(const RunInput& input, ProgramReader& reader) {

@@ -34,6 +34,18 @@ void add_deviation(std::string& row, const Vector6& d, bool known) {
   add_rotation(row, d.tail<3>());
 }
 
+void add_bands(std::string& row, const Waypoint& w, bool corrected) {
+  const bool known = w.status == Status::converged && w.covariance;
+  const auto add_band = [&](const Vector6& deviation, bool has) {
+    if (has)
+      add(row, band(deviation.head<3>(), w.covariance->topLeftCorner<3, 3>()) / mm, length_digits);
+    else
+      row += ',';
+  };
+  add_band(w.before, known);
+  add_band(w.after, known && corrected);
+}
+
 // An unsolved waypoint has no deviations; zeros would look like perfection.
 void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvColumns& columns) {
   const bool solved = w.status == Status::converged;
@@ -58,18 +70,20 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
     add_rotation(text, rotation_between(*w.R_MT, Matrix3::Identity()));
   else
     text.append(3, ',');
+  if (columns.bands) add_bands(text, w, columns.corrected);
   text += '\n';
 }
 
 }  // namespace
 
-std::string csv_header() {
+std::string csv_header(const CsvColumns& columns) {
   std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
   for (const char* prefix : prefixes)
     for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
   for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
     row.append(",correction_").append(name);
-  return row + ",status,iterations,rx_deg,ry_deg,rz_deg\n";
+  return row + ",status,iterations,rx_deg,ry_deg,rz_deg" +
+         (columns.bands ? ",before_band_mm,after_band_mm\n" : "\n");
 }
 
 std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns,

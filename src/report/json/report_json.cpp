@@ -5,6 +5,7 @@
 #include "counterflex/report/formats.hpp"
 #include "report/json/json_numbers.hpp"
 #include "report/json/loads_json.hpp"
+#include "report/json/uncertainty_json.hpp"
 #include "report/names.hpp"
 
 namespace counterflex {
@@ -14,16 +15,18 @@ namespace {
 constexpr int digits = 7;  // 1e-7 mm, 1e-7 deg
 
 Json statistics_json(const DeviationStatistics& s) {
-  return {{"max_mm", number(s.max_mm, digits)},
-          {"rms_mm", number(s.rms_mm, digits)},
-          {"mean_mm", number(s.mean_mm, digits)},
-          {"p95_mm", number(s.p95_mm, digits)},
-          {"max_line", s.max_line},
-          {"max_axis_mm", numbers(s.max_axis_mm, digits)},
-          {"max_rotation_deg", number(s.max_rotation_deg, digits)},
-          {"max_along_mm", number(s.max_along_mm, digits)},
-          {"max_across_mm", number(s.max_across_mm, digits)},
-          {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
+  Json json = {{"max_mm", number(s.max_mm, digits)},
+               {"rms_mm", number(s.rms_mm, digits)},
+               {"mean_mm", number(s.mean_mm, digits)},
+               {"p95_mm", number(s.p95_mm, digits)},
+               {"max_line", s.max_line},
+               {"max_axis_mm", numbers(s.max_axis_mm, digits)},
+               {"max_rotation_deg", number(s.max_rotation_deg, digits)},
+               {"max_along_mm", number(s.max_along_mm, digits)},
+               {"max_across_mm", number(s.max_across_mm, digits)},
+               {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
+  if (s.bands) json["band"] = bands_json(*s.bands);
+  return json;
 }
 
 Json optional_number(const std::optional<double>& value) {
@@ -309,6 +312,8 @@ Json worst_row_json(const RunReport& report, const WorstRow& row) {
                {"force_N", number(place.force_N, 4)},
                {"causes", parts_json(row.causes, weights, preloads)},
                {"text", row.text}};
+  if (row.at_before.band_mm) json["before_band_mm"] = number(*row.at_before.band_mm, digits);
+  if (report.after && row.at_after.band_mm) json["after_band_mm"] = number(*row.at_after.band_mm, digits);
   if (report.command == Command::verify) json["corrected_line"] = place.corrected_line;
   if (place.operation < 0) return json;
   const OperationReport& operation = report.operations[static_cast<std::size_t>(place.operation)];
@@ -446,6 +451,7 @@ std::string to_json(const RunReport& report) {
                    {"units", units_json(report.units)}};
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);
+  if (report.uncertainty) document["uncertainty"] = uncertainty_json(*report.uncertainty);
   return dump(document);
 }
 

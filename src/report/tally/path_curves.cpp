@@ -7,6 +7,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "counterflex/statics/tip_uncertainty.hpp"
 #include "report/tally/causes.hpp"
 
 namespace counterflex {
@@ -64,7 +65,9 @@ constexpr std::array<std::string_view, quantity_count> quantity_names = {"before
                                                                          "force_x_N",
                                                                          "force_y_N",
                                                                          "force_z_N",
-                                                                         "force_N"};
+                                                                         "force_N",
+                                                                         "before_band_mm",
+                                                                         "after_band_mm"};
 
 float& at(Values& values, Quantity first, int offset = 0) {
   return values[static_cast<std::size_t>(first) + static_cast<std::size_t>(offset)];
@@ -102,12 +105,22 @@ void set_causes(Values& values, const Waypoint& w, const Causes& causes, PathCur
   if (known.corrected) at(values, Quantity::air) = static_cast<float>(causes.air.head<3>().norm() / mm);
 }
 
+void set_bands(Values& values, const Waypoint& w, PathCurves::Known known) {
+  const auto set = [&](Quantity quantity, const Vector6& deviation) {
+    at(values, quantity) =
+        static_cast<float>(band(deviation.head<3>(), w.covariance->topLeftCorner<3, 3>()) / mm);
+  };
+  if (w.place) set(Quantity::before_band, w.before);
+  if (known.corrected) set(Quantity::after_band, w.after);
+}
+
 Values values_of(const Waypoint& w, PathCurves::Known known) {
   Values values;
   values.fill(unknown);
   set_vector(values, Quantity::force_x, w.wrench.head<3>());
   if (known.corrected) set_deviation(values, Quantity::after_x, w, w.after);
   if (w.place) set_deviation(values, Quantity::before_x, w, w.before);
+  if (w.covariance) set_bands(values, w, known);
   if (w.causes && knows_before(w)) set_causes(values, w, *w.causes, known);
   if (w.between) return values;
   if (known.corrected) set_position(values, Quantity::correction_x, w.correction);

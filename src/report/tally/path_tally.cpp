@@ -17,10 +17,22 @@ DeviationSample sample(const Waypoint& w, const Vector6& deviation, double weigh
   return {deviation, w.direction, w.tool_axis, weight, w.line};
 }
 
+/// Of a deviation of the real machine, which has a band: not of a cause alone.
+DeviationSample banded(const Waypoint& w, const Vector6& deviation, double weight) {
+  DeviationSample result = sample(w, deviation, weight);
+  if (w.covariance) result.covariance = &*w.covariance;
+  return result;
+}
+
 void keep(Largest& largest, double length, int line) {
   if (largest.line == 0 || length / mm > largest.mm + indistinct_mm)
     largest.line = line;  // the first of equal values
   largest.mm = std::max(largest.mm, length / mm);
+}
+
+std::optional<double> band_mm_at(const Waypoint& w, const Vector6& deviation) {
+  if (!w.covariance) return std::nullopt;
+  return band(deviation.head<3>(), w.covariance->topLeftCorner<3, 3>()) / mm;
 }
 
 /// Whether `deviation` is the largest of its line so far. Keeps it with its place; keeps the first of equal
@@ -33,7 +45,8 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
     return false;
   }
   largest_mm = here_mm;
-  place = {true, w.s / mm, w.p_MT / mm, operation, w.wrench.head<3>().norm(), w.corrected_line};
+  place = {true,      band_mm_at(w, deviation),  w.s / mm,        w.p_MT / mm,
+           operation, w.wrench.head<3>().norm(), w.corrected_line};
   return true;
 }
 
@@ -146,7 +159,7 @@ void PathTally::add_target(const Waypoint& w) {
 
 void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts,
                             bool is_within) {
-  m_.after.add(sample(w, w.after, w.weight));
+  m_.after.add(banded(w, w.after, w.weight));
   tally_of(facts.tool).after.add(facts.tool, w.after, w.tool_axis, w.line);
   m_.path_mm += w.weight / mm;
   m_.largest_N = std::max(m_.largest_N, w.wrench.head<3>().norm());
@@ -188,7 +201,7 @@ OperationTally* PathTally::tally_of(std::int32_t operation) {
 void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
   OperationTally* tally = tally_of(operation);
   if (tally == nullptr) return;
-  tally->after.add(sample(w, w.after, w.weight));
+  tally->after.add(banded(w, w.after, w.weight));
   tally->length_mm += w.weight / mm;
   tally->first_line = tally->first_line == 0 ? w.line : std::min(tally->first_line, w.line);
   tally->last_line = std::max(tally->last_line, w.line);
@@ -222,7 +235,7 @@ void PathTally::share_piece(const Waypoint& w, std::int32_t operation, double sh
   Waypoint start = end_->at;
   start.line = w.line;
   start.direction = w.direction;
-  tally->before.add(sample(start, start.before, share));
+  tally->before.add(banded(start, start.before, share));
 }
 
 void PathTally::finish_end() {
@@ -244,13 +257,13 @@ void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double w
 
 void PathTally::measure_end(const End& end) {
   const Waypoint& w = end.at;
-  m_.before.add(sample(w, w.before, end.weight));
+  m_.before.add(banded(w, w.before, end.weight));
   Vector6 rest = w.before;
   rest.head<3>() -= end.facts.common_shift;
-  m_.rest.add(sample(w, rest, end.weight));
+  m_.rest.add(banded(w, rest, end.weight));
   tally_of(end.facts.tool).before.add(end.facts.tool, w.before, w.tool_axis, w.line);
   if (OperationTally* tally = tally_of(end.operation))
-    tally->before.add(sample(w, w.before, end.weight_there));
+    tally->before.add(banded(w, w.before, end.weight_there));
   if (w.causes) measure_causes(w, *w.causes, end.weight);
   WorstRow& row = lines_.row(w.line);
   if (keep_worst(row.before_mm, row.at_before, w, w.before, end.operation) && w.causes)

@@ -6,6 +6,7 @@
 #include <optional>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/statics/tip_uncertainty.hpp"
 
 namespace counterflex {
 
@@ -24,9 +25,18 @@ double upper_edge(int bin) {
   return std::exp((bin + 1) * std::log(bin_ratio));
 }
 
+void keep_bands(std::optional<BandStatistics>& kept, const BandStatistics& other, bool is_larger) {
+  if (!kept) kept.emplace();
+  if (is_larger) kept->at_max_mm = other.at_max_mm;
+  if (other.largest_mm > kept->largest_mm + indistinct_mm) kept->largest_line = other.largest_line;
+  kept->largest_mm = std::max(kept->largest_mm, other.largest_mm);
+}
+
 void keep_maxima(DeviationStatistics& kept, const DeviationStatistics& other) {
   // Reports the first of lines that differ by rounding.
-  if (kept.max_line == 0 || other.max_mm > kept.max_mm + indistinct_mm) kept.max_line = other.max_line;
+  const bool is_larger = kept.max_line == 0 || other.max_mm > kept.max_mm + indistinct_mm;
+  if (is_larger) kept.max_line = other.max_line;
+  if (other.bands) keep_bands(kept.bands, *other.bands, is_larger);
   kept.max_mm = std::max(kept.max_mm, other.max_mm);
   kept.max_axis_mm = kept.max_axis_mm.cwiseMax(other.max_axis_mm);
   kept.max_rotation_deg = std::max(kept.max_rotation_deg, other.max_rotation_deg);
@@ -46,6 +56,10 @@ DeviationStatistics of_one(const DeviationSample& sample) {
   one.max_along_mm = split.along;
   one.max_across_mm = split.across;
   one.max_tool_axis_mm = split.tool_axis;
+  if (sample.covariance != nullptr) {
+    const double band_mm = band(sample.deviation.head<3>(), sample.covariance->topLeftCorner<3, 3>()) / mm;
+    one.bands = BandStatistics{band_mm, band_mm, sample.line};
+  }
   return one;
 }
 
@@ -81,6 +95,11 @@ void DeviationTally::add(const DeviationSample& sample) {
   weight_ += sample.weight;
   sum_ += sample.weight * one.max_mm;
   sum_of_squares_ += sample.weight * one.max_mm * one.max_mm;
+  if (one.bands) {
+    band_weight_ += sample.weight;
+    sum_of_squared_bands_ += sample.weight * one.bands->at_max_mm * one.bands->at_max_mm;
+    if (one.max_mm <= one.bands->at_max_mm) below_ += sample.weight;
+  }
   if (one.max_mm < smallest_mm)
     weight_of_none_ += sample.weight;
   else
@@ -94,6 +113,9 @@ void DeviationTally::merge(const DeviationTally& later) {
   sum_ += later.sum_;
   sum_of_squares_ += later.sum_of_squares_;
   weight_of_none_ += later.weight_of_none_;
+  band_weight_ += later.band_weight_;
+  below_ += later.below_;
+  sum_of_squared_bands_ += later.sum_of_squared_bands_;
   later.weight_by_bin_.each([this](int bin, double weight) { weight_by_bin_.add(bin, weight); });
 }
 
@@ -116,6 +138,10 @@ DeviationStatistics DeviationTally::statistics() const {
   result.mean_mm = sum_ / weight_;
   result.rms_mm = std::sqrt(sum_of_squares_ / weight_);
   result.p95_mm = percentile(0.95);
+  if (band_weight_ > 0) {
+    result.bands->rms_mm = std::sqrt(sum_of_squared_bands_ / band_weight_);
+    result.bands->below_percent = 100 * below_ / band_weight_;
+  }
   return result;
 }
 

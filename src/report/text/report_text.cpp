@@ -68,6 +68,20 @@ std::string factor(const RunReport& report) {
   return fmt::format("  The largest deviation becomes {} times smaller.\n", format_fixed(before / after, 0));
 }
 
+std::string band_rows(const RunReport& report) {
+  if (!report.before->bands) return "";
+  const auto row = [&](const char* label, double BandStatistics::*value, int decimals) {
+    const auto shown = [&](const std::optional<DeviationStatistics>& s) {
+      return s && s->bands ? format_fixed(*s->bands.*value, decimals) : std::string();
+    };
+    return before_after_row(label, shown(report.before), shown(report.after));
+  };
+  return row("band of the largest, k = 2: +-", &BandStatistics::at_max_mm, 4) +
+         row("widest band", &BandStatistics::largest_mm, 4) +
+         row("root mean square of the bands", &BandStatistics::rms_mm, 4) +
+         row("below its band, % of the length", &BandStatistics::below_percent, 0);
+}
+
 std::string deviation_table(const RunReport& report, const Ink& ink) {
   if (!report.before) return "";
   const bool corrected = report.after.has_value();
@@ -90,9 +104,41 @@ std::string deviation_table(const RunReport& report, const Ink& ink) {
   text += row("largest along the tool axis", report, &DeviationStatistics::max_tool_axis_mm);
   text += row("along the path (matters at ends)", report, &DeviationStatistics::max_along_mm);
   text += row("largest rotation, in deg", report, &DeviationStatistics::max_rotation_deg);
-  text += tool_rows(report);
+  text += tool_rows(report) + band_rows(report);
   if (!corrected) return text;
   return text + "  * model residual: what the model leaves, not the accuracy of the part\n" + factor(report);
+}
+
+std::string uncertainty_text(const RunReport& report, const Ink& ink) {
+  if (!report.uncertainty) return "";
+  const UncertaintyReport& of = *report.uncertainty;
+  std::string text = line_break() + ink.bold("Uncertainty") + ", bands have k = 2\n";
+  text +=
+      wrapped("  ",
+              fmt::format("{} of {} parameters of the machine have a standard deviation; the others count "
+                          "as exact. Standard deviations: force {:.3g} %, tool length {:.3g} um, "
+                          "repeatability {:.3g} um, temperature {:.3g} K.",
+                          of.known_parameters, of.parameters, 100 * of.stated.force,
+                          of.stated.tool_length / um, of.stated.repeatability / um, of.stated.temperature),
+              2);
+  if (const auto& at = of.at_worst)
+    text +=
+        wrapped("  ",
+                fmt::format("Where the deviation before is largest: +- {} mm; machine {}, force {}, "
+                            "others {}.",
+                            mm4(at->all_mm), mm4(at->parameters_mm), mm4(at->force_mm), mm4(at->others_mm)),
+                2);
+  if (const auto& sampled = of.sampled)
+    text +=
+        wrapped("  ",
+                fmt::format("{} samples at {} places: {} % of their deviations are inside of the bands; "
+                            "standard deviations are {} to {} of the computed ones{}.",
+                            sampled->samples, sampled->places, format_fixed(sampled->covered_percent, 1),
+                            format_fixed(sampled->least_ratio, 3), format_fixed(sampled->largest_ratio, 3),
+                            sampled->unsolved > 0 ? fmt::format("; {} were not solved", sampled->unsolved)
+                                                  : std::string()),
+                2);
+  return text;
 }
 
 std::string source_row(const char* label, const DeviationStatistics& s) {
@@ -280,7 +326,8 @@ std::string others_text(const OtherMoves& moves) {
 std::string details_text(const RunReport& report, bool colour, bool marks) {
   const Ink ink{colour, marks};
   std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
-  text += deviation_table(report, ink) + sources_text(report, ink) + worst_text(report, ink);
+  text += deviation_table(report, ink) + uncertainty_text(report, ink) + sources_text(report, ink) +
+          worst_text(report, ink);
   text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
   text += left_alone_text(report, ink) + machine_positions_text(report, ink) + warnings_text(report, ink);
   return text + sanity_text(report.sanity, ink) + assumptions_text(report, ink);

@@ -15,6 +15,7 @@ namespace {
 
 constexpr std::size_t label_width = 14;
 constexpr std::size_t shown_files = 4;
+constexpr double least_shown_mm = 1e-4;  // smaller residuals are shown as zero or by one digit
 
 /// A labelled paragraph, cut after two lines.
 std::string item(std::string_view label, const std::string& text) {
@@ -42,9 +43,15 @@ std::string causes_text(const SourcesAtWorst& at) {
   return text;
 }
 
+/// " +- 0.0120": the band of the largest deviation.
+std::string band_text(const DeviationStatistics& s) {
+  return s.bands ? " +- " + mm4(s.bands->at_max_mm) : "";
+}
+
 std::string before_text(const RunReport& report) {
   if (!report.before) return "";
-  std::string text = fmt::format("{} mm, line {}", mm4(report.before->max_mm), report.before->max_line);
+  std::string text = fmt::format("{} mm{}, line {}", mm4(report.before->max_mm), band_text(*report.before),
+                                 report.before->max_line);
   if (report.at_worst) text += ": " + causes_text(*report.at_worst);
   if (report.common_shift)
     text += fmt::format("; without the common shift {}", mm4(report.common_shift->rest.max_mm));
@@ -54,10 +61,22 @@ std::string before_text(const RunReport& report) {
 std::string after_text(const RunReport& report) {
   if (!report.after || !report.before) return "";
   const double before = report.before->max_mm, after = report.after->max_mm;
-  std::string text = fmt::format("{} mm, line {}", mm4(after), report.after->max_line);
-  if (after > 0 && before >= 10 * after)
+  std::string text =
+      fmt::format("{} mm{}, line {}", mm4(after), band_text(*report.after), report.after->max_line);
+  if (after >= least_shown_mm && before >= 10 * after)
     text += fmt::format(" ({} times smaller)", format_fixed(before / after, 0));
   return item("after", text + fmt::format("; by the model, tolerance {} mm", mm4(report.tolerance_mm)));
+}
+
+std::string uncertainty_line(const RunReport& report) {
+  if (!report.uncertainty || !report.before || !report.before->bands) return "";
+  std::string text;
+  if (const auto& at = report.uncertainty->at_worst)
+    text = fmt::format("+- {} mm (k = 2) is machine {}, force {}, others {}; ", mm4(at->all_mm),
+                       mm4(at->parameters_mm), mm4(at->force_mm), mm4(at->others_mm));
+  return item("uncertainty",
+              text + fmt::format("on {} % of the length the correction is below its own uncertainty",
+                                 format_fixed(report.before->bands->below_percent, 0)));
 }
 
 std::string other_force(const UnderOtherForce& other) {
@@ -144,8 +163,8 @@ std::string more_line(const RunReport& report) {
 std::string summary_text(const RunReport& report, const std::vector<std::string>& files, bool colour) {
   const Ink ink{colour};
   return verdict_line(report, ink) + headline(report, ink) + before_text(report) + after_text(report) +
-         force_line(report) + moves_line(report) + sanity_line(report, ink) + files_line(report, files) +
-         more_line(report);
+         uncertainty_line(report) + force_line(report) + moves_line(report) + sanity_line(report, ink) +
+         files_line(report, files) + more_line(report);
 }
 
 }  // namespace counterflex

@@ -90,7 +90,8 @@
     const {units} = context;
     return () => {
       const {part, log} = state;
-      const wanted = [{name: quantityName(base, part), label: base, colour: look.colour, colours: look.colours}];
+      const wanted = [{name: quantityName(base, part), label: base, colour: look.colour, colours: look.colours},
+        ...(part === '' ? [{name: `${base}_band_mm`, label: 'its band, k = 2', colour: '--ink', dash: [3, 3]}] : [])];
       const tolerance = look.levels ? toleranceText(context, part) : '';
       const title = `${look.title}: ${labelOf(part)}, in ${unitOf(part, units)}${tolerance}`;
       const levels = look.levels ? toleranceLevels(context, part, log) : [];

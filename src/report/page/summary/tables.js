@@ -16,6 +16,10 @@
     ['Along the path (matters at ends)', 'max_along_mm'], ['Largest rotation, in degrees', 'max_rotation_deg'],
   ];
 
+  /** Of the bands of a machine with [uncertainty]. */
+  const bandStatistics = [['Band of the largest, k = 2: \u00b1', 'at_max_mm'], ['Widest band', 'largest_mm'],
+    ['Root mean square of the bands', 'rms_mm']];
+
   const show = (key, x, units) => (!known(x) ? unknown : key.endsWith('_deg') ? x.toFixed(4) : units.number(x));
   function signed(key, x, units) {
     const text = show(key, x, units);
@@ -76,6 +80,12 @@
       const cells = (list) => across(list.map((s) => value(s, key, axis)), key, units);
       return [what, ...cells(before), ...(corrected ? cells(after) : [])];
     });
+    const bandsOf = (list) => list.map((s) => (s && s.band) || null);
+    if (bandsOf(before).some(Boolean))
+      for (const [what, key] of bandStatistics) {
+        const cells = (list) => across(bandsOf(list).map((s) => value(s, key)), key, units);
+        rows.push([what, ...cells(before), ...(corrected ? cells(after) : [])]);
+      }
     const link = (s, run, quantity) => counterflex.lines.link(context, run, s ? s.max_line : 0, {quantity});
     const line = (list, quantity) => [...list.map((s, run) => link(s, run, quantity)), ...(runs.length === 2 ? [''] : [])];
     rows.splice(1, 0, ['  in program line', ...line(before, 'before_mm'), ...(corrected ? line(after, 'after_mm') : [])]);

@@ -1,0 +1,188 @@
+#include "counterflex/compensation/sampled_uncertainty.hpp"
+
+#include <Eigen/Eigenvalues>
+#include <algorithm>
+#include <cmath>
+#include <random>
+
+#include "compensation/solve/solver.hpp"
+#include "counterflex/files/parallel.hpp"
+#include "counterflex/machine/parameters.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t most_places = 64;
+
+/// Independent numbers from the normal distribution.
+class Normal {
+ public:
+  explicit Normal(std::size_t seed) : generator_(seed + 1) {}
+  double next() { return distribution_(generator_); }
+  Vector3 next3() {
+    const double x = next(), y = next(), z = next();
+    return {x, y, z};
+  }
+
+ private:
+  std::mt19937_64 generator_;
+  std::normal_distribution<double> distribution_;
+};
+
+Eigen::MatrixXd root(const Eigen::MatrixXd& C) {
+  const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> solver(C);
+  return solver.eigenvectors() * solver.eigenvalues().cwiseMax(0).cwiseSqrt().asDiagonal();
+}
+
+/// Values of all parameters with those of `known` drawn.
+std::vector<double> drawn_values(const std::vector<Parameter>& all, const KnownParameters& known,
+                                 const Eigen::MatrixXd& L, Normal& normal) {
+  const auto is_scale = [](const Parameter& p) {
+    return p.kind == ParameterKind::compliance || p.kind == ParameterKind::mass;
+  };
+  for (;;) {
+    Eigen::VectorXd z(L.cols());
+    for (Eigen::Index i = 0; i < z.size(); ++i) z[i] = normal.next();
+    const Eigen::VectorXd moved = L * z;
+    bool valid = true;
+    std::vector<double> values;
+    for (const Parameter& parameter : all) {
+      const auto at = std::find(known.names.begin(), known.names.end(), parameter.name) - known.names.begin();
+      const bool is_known = at < static_cast<std::ptrdiff_t>(known.names.size());
+      values.push_back(parameter.value + (is_known ? moved[at] : 0));
+      valid = valid && (!is_scale(parameter) || values.back() > 0 || parameter.value == 0);
+    }
+    if (valid) return values;
+  }
+}
+
+/// What the samples of one slice show at each place.
+struct PlaceSums {
+  double sum = 0, squares = 0;
+  std::size_t count = 0, inside = 0;
+};
+
+struct Place {
+  const LoadPlace* of = nullptr;
+  Pose wanted;
+  Vector3 u = Vector3::Zero();
+  double band = 0;
+};
+
+std::vector<Place> banded_places(const std::vector<LoadPlace>& places) {
+  std::vector<const LoadPlace*> known;
+  for (const LoadPlace& place : places)
+    if (place.at.covariance) known.push_back(&place);
+  std::vector<Place> result;
+  if (known.empty()) return result;
+  PlaceSolver solver(nullptr, known.front()->load.at_platform);
+  const std::size_t count = std::min(known.size(), most_places);
+  for (std::size_t k = 0; k < count; ++k) {
+    const LoadPlace& place = *known[k * known.size() / count];
+    const TipPosition position = wanted_at(*place.model, place.at);
+    WantedPose wanted;
+    solver.wanted({&position, 1}, {&wanted, 1});
+    if (wanted.status != Status::converged) continue;
+    const Vector3 d = place.at.after.head<3>();
+    const Matrix3 C = place.at.covariance->topLeftCorner<3, 3>();
+    result.push_back({&place, wanted.X_MT, band_direction(d, C), band(d, C)});
+  }
+  return result;
+}
+
+}  // namespace
+
+DrawnMachine drawn_machine(const Machine& machine, std::size_t index) {
+  const Uncertainty& uncertainty = *machine.uncertainty;
+  Normal normal(index);
+  DrawnMachine drawn{machine};
+  drawn.force = 1 + uncertainty.force * normal.next();
+  drawn.tool_length = uncertainty.tool_length * normal.next();
+  const double warmer = uncertainty.temperature * normal.next();
+  const KnownParameters known = uncertain_parameters(machine);
+  if (!known.names.empty())
+    drawn.machine =
+        with_parameters(machine, drawn_values(parameters(machine), known, root(known.covariance), normal));
+  if (warmer != 0) {
+    const std::vector<double>& range = machine.thermal->temperatures;
+    drawn.machine =
+        at_temperature(drawn.machine, std::clamp(*machine.temperature + warmer, range.front(), range.back()));
+  }
+  return drawn;
+}
+
+SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools,
+                          const std::vector<LoadPlace>& places, std::size_t samples, int threads) {
+  const std::vector<Place> at = banded_places(places);
+  SampledBands bands{samples, at.size()};
+  std::vector<std::vector<std::optional<double>>> found(samples);  // by sample and place: u'(d - d0)
+  for_each_index(samples, threads, [&](std::size_t k) {
+    const DrawnMachine drawn = drawn_machine(machine, k);
+    const Model model = prepare(drawn.machine);
+    const ToolModels with = prepare_tools(drawn.machine, model, tools);
+    PlaceSolver solver(nullptr, !at.empty() && at.front().of->load.at_platform);
+    Normal normal(~k);
+    for (const Place& place : at) {
+      const Waypoint& w = place.of->at;
+      const ForwardRequest request{.model = &model_with(model, &with, place.of->tool),
+                                   .target = place.of->target,
+                                   .F = drawn.force * place.of->load.F,
+                                   .R = commanded_orientation(w),
+                                   .directions = w.directions};
+      ForwardAnswer answer;
+      solver.forwards({&request, 1}, {&answer, 1});
+      const Vector3 own =
+          machine.uncertainty->repeatability * normal.next3() - drawn.tool_length * answer.X_MT.R.col(2);
+      std::optional<double>& result = found[k].emplace_back();
+      if (answer.status == Status::converged)
+        result = place.u.dot(deviation(answer.X_MT, place.wanted).head<3>() + own - w.after.head<3>());
+    }
+  });
+  std::vector<PlaceSums> sums(at.size());
+  for (const auto& sample : found)
+    for (std::size_t i = 0; i < at.size(); ++i) {
+      if (!sample[i]) {
+        ++bands.unsolved;
+        continue;
+      }
+      sums[i].sum += *sample[i];
+      sums[i].squares += *sample[i] * *sample[i];
+      ++sums[i].count;
+      if (std::abs(*sample[i]) <= at[i].band) ++sums[i].inside;
+    }
+  std::size_t inside = 0, count = 0;
+  bool first = true;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    inside += sums[i].inside;
+    count += sums[i].count;
+    if (sums[i].count < 2 || at[i].band == 0) continue;
+    const auto n = static_cast<double>(sums[i].count);
+    const double mean = sums[i].sum / n;
+    const double ratio = 2 * std::sqrt(std::max(sums[i].squares / n - mean * mean, 0.0)) / at[i].band;
+    bands.least_ratio = first ? ratio : std::min(bands.least_ratio, ratio);
+    bands.largest_ratio = first ? ratio : std::max(bands.largest_ratio, ratio);
+    first = false;
+  }
+  if (count > 0) bands.covered_percent = 100.0 * static_cast<double>(inside) / static_cast<double>(count);
+  return bands;
+}
+
+std::optional<TipCovariance> solve_covariance(const LoadPlace& place, const TipUncertainties& uncertainties,
+                                              const StartTables* starts) {
+  PlaceSolver solver(starts, place.load.at_platform);
+  const ForwardRequest request{.model = place.model,
+                               .target = place.target,
+                               .F = place.load.F,
+                               .R = commanded_orientation(place.at),
+                               .directions = place.at.directions};
+  ForwardAnswer answer;
+  solver.forwards({&request, 1}, {&answer, 1});
+  if (answer.status != Status::converged) return std::nullopt;
+  const Equilibrium found = solver.equilibrium(request, answer);
+  if (found.status != Status::converged) return std::nullopt;
+  const TipUncertainty& uncertainty = uncertainties.at(place.model);
+  StaticsWork work = uncertainty.work();
+  return uncertainty.of_tip(found.configuration, place.load, work);
+}
+
+}  // namespace counterflex

@@ -1,0 +1,10 @@
+#pragma once
+#include "counterflex/report/report.hpp"
+#include "report/json/json_numbers.hpp"
+
+namespace counterflex {
+
+Json bands_json(const BandStatistics& bands);
+Json uncertainty_json(const UncertaintyReport& of);
+
+}  // namespace counterflex
