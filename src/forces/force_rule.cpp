@@ -30,7 +30,8 @@ bool at_platform(const ForceRule& rule) {
 bool is_zero(const ForceRule& rule) {
   if (const auto* force = std::get_if<ConstantForce>(&rule.content)) return force->F.isZero(0);
   if (const auto* response = std::get_if<CutResponse>(&rule.content))
-    return response->F_c.isZero(0) && response->F_e.isZero(0);
+    return response->F_c.isZero(0) && response->F_e.isZero(0) && response->T_c.isZero(0) &&
+           response->T_e.isZero(0);
   return std::get<ForceProfile>(rule.content).rows.all_zero();
 }
 

@@ -30,12 +30,12 @@ bool has_models(const ForceSource& source) {
                      [](const ForceRule& rule) { return std::holds_alternative<CutResponse>(rule.content); });
 }
 
-/// The model that acts in the middle of a move, or null.
-const CutResponse* model_of(const std::vector<ForceStretch>& stretches) {
+/// The rule whose model acts in the middle of a move, or null.
+const ForceRule* model_of(const std::vector<ForceStretch>& stretches) {
   const auto at = std::find_if(stretches.begin(), stretches.end(),
                                [](const ForceStretch& stretch) { return stretch.to > middle_of_move; });
   if (at == stretches.end() || at->rule == nullptr) return nullptr;
-  return std::get_if<CutResponse>(&at->rule->content);
+  return std::holds_alternative<CutResponse>(at->rule->content) ? at->rule : nullptr;
 }
 
 /// In the middle of the move, whose pieces these are.
@@ -135,12 +135,15 @@ class MoveForces {
   }
 
   void take_model(std::size_t i, const ForceAxes& axes, MoveForce& result) {
-    const CutResponse* response = model_of(coverage_->stretches(i));
-    if (response == nullptr) return;
+    const ForceRule* rule = model_of(coverage_->stretches(i));
+    if (rule == nullptr) return;
+    const auto* response = std::get_if<CutResponse>(&rule->content);
     const Segment& segment = path_.segments[i];
     const double slope = direction_at(segment.wanted, middle_of_move).dot(axes.R_MF.col(2));
     const CutForce force = cutting_force(*response, segment.feed_m_s, result.spindle_rpm, slope);
     result.feed_per_tooth = force.feed_per_tooth;
+    result.model = rule;
+    result.chip_torque = force.chip_torque;
     if (response->spindle_rpm > 0) result.spindle_rpm = response->spindle_rpm;
   }
 

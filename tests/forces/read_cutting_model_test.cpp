@@ -1,6 +1,7 @@
 #include <doctest/doctest.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/forces/cutting_model.hpp"
 #include "forces/sample_cut.hpp"
@@ -133,10 +134,11 @@ TEST_CASE("sections keep the order of the file") {
 }
 
 TEST_CASE("every published material can be named, and has its source") {
-  CHECK(published_coefficients().size() >= 6);
+  CHECK(published_coefficients().size() >= 18);
   for (const PublishedCoefficients& published : published_coefficients()) {
     CAPTURE(published.name);
     std::string text = beginning + "side = \"slot\"\n";
+    if (published.coefficients.m_c > 0) text += "radial_share = 0.3\naxial_share = 0.1\n";
     text.replace(text.find("material = \"alu\""), 16, "material = \"" + published.name + "\"");
     const CuttingModel cut = read_cutting_model(text, "cuts.toml")[0].model;
     CHECK(cut.coefficients.K_tc == published.coefficients.K_tc);
@@ -155,4 +157,61 @@ TEST_CASE("a file's own material overrides the published one of its name") {
   text.replace(text.find("materials.alu"), 13, "materials." + published);
   text.replace(text.find("material = \"alu\""), 16, "material = \"" + published + "\"");
   CHECK(read_cutting_model(text, "cuts.toml")[0].model.coefficients.K_tc == doctest::Approx(700e6));
+}
+
+namespace {
+
+/// The section with Kienzle's keys in the material, and `rest` in the section.
+CuttingModel kienzle(const std::string& of_material, const std::string& rest) {
+  const std::string alu = beginning.substr(beginning.find("Ktc_N_mm2"),
+                                           beginning.find("[[section]]") - beginning.find("Ktc_N_mm2"));
+  std::string text = beginning + rest;
+  text.replace(text.find(alu), alu.size(), of_material);
+  return read_cutting_model(text, "cuts.toml")[0].model;
+}
+
+}  // namespace
+
+TEST_CASE("Kienzle's kc1.1 in N/mm2 at 1 mm is read into SI, with shares of the material or of the section") {
+  const std::string main = "kc11_N_mm2 = 1500\nmc = 0.22\n", slot = "side = \"slot\"\n";
+  const CuttingModel of_material = kienzle(main + "radial_share = 0.3\naxial_share = -0.1\n", slot);
+  const CuttingCoefficients& K = of_material.coefficients;
+  CHECK(K.m_c == 0.22);
+  CHECK(main_value(K) == doctest::Approx(1500e6));
+  // At h = 0.1 mm: 1500 0.1^-0.22 N/mm2.
+  CHECK(K.K_tc * std::pow(1e-4, -0.22) == doctest::Approx(1500e6 * std::pow(0.1, -0.22)));
+  CHECK(K.K_rc == doctest::Approx(0.3 * K.K_tc));
+  CHECK(K.K_ac == doctest::Approx(-0.1 * K.K_tc));
+  const CuttingModel of_section =
+      kienzle(main + "radial_share = 0.3\naxial_share = 0.1\n", slot + "radial_share = 0.5\n");
+  CHECK(of_section.coefficients.K_rc == doctest::Approx(0.5 * K.K_tc));
+  CHECK(of_section.coefficients.K_ac == doctest::Approx(0.1 * K.K_tc));
+}
+
+TEST_CASE("without an exponent Kienzle's law is the linear one") {
+  const CuttingModel cut =
+      kienzle("kc11_N_mm2 = 700\nmc = 0\nradial_share = 0.3\naxial_share = 0.2\n", "side = \"slot\"\n");
+  CHECK(cut.coefficients.K_tc == doctest::Approx(700e6));
+  CHECK(cut.coefficients.K_rc == doctest::Approx(210e6));
+  CHECK(cut.coefficients.K_ac == doctest::Approx(140e6));
+}
+
+TEST_CASE("a cutter has a corner radius, a section of it a radial depth at every height") {
+  std::string text = beginning + "side = \"up\"\nradial_depth_mm = 2\n";
+  text.insert(text.find("helix_deg"), "corner_radius_mm = 5\n");
+  const CuttingModel cut = read_cutting_model(text, "cuts.toml")[0].model;
+  CHECK(cut.mill.corner_radius == doctest::Approx(5e-3));
+  CHECK(cut.radial_depth == doctest::Approx(2e-3));
+  CHECK(model("side = \"up\"\nradial_depth_mm = 2\n").radial_depth == 0);
+}
+
+TEST_CASE("a section of a drill has neither a depth nor an engagement") {
+  std::string text = beginning.substr(0, beginning.find("axial_depth_mm"));
+  text.replace(text.find("helix_deg = 30"), 14, "point_angle_deg = 118");
+  const CutSection drill = read_cutting_model(text, "cuts.toml")[0];
+  CHECK(drill.cutter == "T3");
+  CHECK(drill.material == "alu");
+  CHECK(drill.model.axial_depth == 0);
+  CHECK(drill.model.mill.point_angle == doctest::Approx(118 * deg));
+  CHECK(drill.model.mill.thrust_share == usual_thrust_share);
 }

@@ -13,15 +13,23 @@
 
 namespace counterflex {
 
-/// What a tooth's edge feels over a height dz of it, at chip thickness h = c sin phi (c: feed per tooth):
+/// What a tooth's edge feels over a chip width db, at chip thickness h = c sin phi sin kappa (c: feed per
+/// tooth; kappa: angle between the tool's axis and the normal of the cutter's surface, 90 deg on a cylinder):
 ///
-///     dF_t = (K_tc h + K_te) dz      dF_r = (K_rc h + K_re) dz      dF_a = (K_ac h + K_ae) dz
+///     dF_t = (K_tc h^p + K_te) db      dF_r = (K_rc h^p + K_re) db      dF_a = (K_ac h^p + K_ae) db
 ///
-/// t against the cutting speed, r towards the tool's axis, a along it, away from the spindle. On the tool, in
-/// the feed frame (x along the feed, z from tip to spindle):
+/// with p = 1 - m_c. With m_c > 0 this is Kienzle's law: K_tc = kc1.1 (1 mm)^m_c, so that the force on the
+/// chip's section h db is kc1.1 (h / 1 mm)^-m_c. Source: Kienzle, "Die Bestimmung von Kraeften und Leistungen
+/// an spanenden Werkzeugen und Werkzeugmaschinen", VDI-Z 94 (1952).
 ///
-///     dF = -dF_t (cos phi, -sin phi, 0) - dF_r (sin phi, cos phi, 0) - dF_a (0, 0, 1)
-///     dM = r x dF      r = (R sin phi, R cos phi, z)      z: height above the tip
+/// t against the cutting speed, r against the normal n of the cutter's surface, a against its upward tangent
+/// m: on a cylinder towards the tool's axis, and along it away from the spindle. On the tool, in the feed
+/// frame (x along the feed, z from tip to spindle):
+///
+///     dF = -dF_t (cos phi, -sin phi, 0) - dF_r n - dF_a m
+///     n = (sin kappa sin phi, sin kappa cos phi, -cos kappa)
+///     m = (cos kappa sin phi, cos kappa cos phi, sin kappa)
+///     dM = r x dF      r = (R sin phi, R cos phi, z)      z: height above the tip, R: radius there
 ///
 /// A positive K_ac draws the tool out of the spindle: the rake face of a right-hand helix looks forward and
 /// up, so it lifts the chip, and the chip presses on it backward and down. Source: Altintas, "Manufacturing
@@ -30,16 +38,28 @@ namespace counterflex {
 /// kappa = 90 deg for an end mill. The book's formula for a cylindrical cutter, dF_z = +dF_a, has the other
 /// sign.
 struct CuttingCoefficients {
-  double K_tc = 0, K_rc = 0, K_ac = 0;  ///< N/m2
+  double K_tc = 0, K_rc = 0, K_ac = 0;  ///< N/m^(2 - m_c)
   double K_te = 0, K_re = 0, K_ae = 0;  ///< N/m
+  double m_c = 0;                       ///< 0 to less than 1
 };
+
+/// kc1.1: the tangential force on a chip that is 1 mm thick, over its section (N/m2).
+double main_value(const CuttingCoefficients& coefficients);
+
+/// Thrust over cutting force of a twist drill: Tc D / (4 Mc) of the formulas Tc = 570 K D f^0.85 and
+/// Mc = K D^2 (0.630 + 16.84 f) / 100 (N, N m, mm) is 0.87 to 0.91 for feeds f of 0.1 to 0.4 mm, for any K
+/// and D. Source of the formulas: Tungaloy, General Catalogue 2020-2021, User's Guide, page L068.
+inline constexpr double usual_thrust_share = 0.9;
 
 /// Right-hand cutter that turns clockwise, seen from the spindle. Angles of immersion count from the feed
 /// frame's y axis towards its x axis: a tooth at angle phi is at (sin phi, cos phi) of the radius.
 struct EndMill {
   double diameter = 0;  ///< m
   int flutes = 0;
-  double helix = 0;  ///< rad
+  double helix = 0;          ///< rad
+  double corner_radius = 0;  ///< m; 0: a flat end; half of the diameter: a ball
+  double point_angle = 0;    ///< of its tip, rad, where it plunges as a drill; 0: it does not
+  double thrust_share = usual_thrust_share;
 };
 
 enum class ForceAt { mean, surface };
@@ -53,24 +73,31 @@ struct CuttingModel {
   CuttingCoefficients coefficients;
   double axial_depth = 0;      ///< m
   double entry = 0, exit = 0;  ///< angles of immersion, rad
+  /// Of a cutter with a corner radius: distance to the pass before (m). Where the cutter is narrower the
+  /// angle of immersion is that of this depth there. 0: `entry` and `exit` are those of every height.
+  double radial_depth = 0;
   Wall wall = Wall::none;
   ForceAt force_at = ForceAt::mean;
   double spindle_rpm = 0;  ///< instead of the program's; 0: the program's
 };
 
-/// What a cut answers to a feed per tooth c: F = F_c c + F_e. Made once for a model, asked for every move.
+/// What a cut answers to a feed per tooth c: F = F_c c^p + F_e. Made once for a model, asked for every move.
 struct CutResponse {
-  Vector6 F_c = Vector6::Zero();  ///< of the chip (N/m, N), axes of the feed frame, at the tip
+  Vector6 F_c = Vector6::Zero();  ///< of the chip (N/m^p, N m/m^p), axes of the feed frame, at the tip
   Vector6 F_e = Vector6::Zero();  ///< of the edge (N, N m)
   int flutes = 0;
   double spindle_rpm = 0;  ///< instead of the program's; 0: the program's
   double diameter = 0;     ///< of the cutter (m)
+  double p = 1;            ///< 1 - m_c
+  bool mills = true, drills = false;
+  Vector6 T_c = Vector6::Zero(), T_e = Vector6::Zero();  ///< of a plunge, as F_c and F_e
 };
 
 /// The wrench on the tool at its tip, axes of the feed frame (N, N m), or why no force acts.
 struct CutForce {
   Vector6 F = Vector6::Zero();
   double feed_per_tooth = 0;  ///< m; c
+  double chip_torque = 0;     ///< N m; the part of the torque that is proportional to K_tc
   std::string why;            ///< empty: `F` acts
 };
 
@@ -94,14 +121,25 @@ inline constexpr double steepest_ramp = 0.984807753012208;  // sin 80 deg
 /// Both ends count: a straight flute that makes the wall cuts with its whole edge. With a helix that tooth is
 /// still entering, or already leaving, and on average half of its edge is in the cut, however small the helix
 /// is: the edge part of a tooth at the wall halves, what the chip gives does not jump, for there h = 0.
-/// Requires the model to be what `read_cutting_model` accepts: 0 <= entry < exit <= pi, and a wall for
-/// `surface`.
+///
+/// A plunge of a cutter that drills has the force of N edges of width b = D / (2 sin kappa), kappa half of
+/// the point angle, at chip thickness h = c sin kappa:
+///
+///     F_z = share F_v      M_z = F_v D / 4      F_v = N (K_tc h^p + K_te) b
+///
+/// F_v acts in the middle of the edges, and a part of it, `thrust_share`, pushes the tool up. Source of h, b
+/// and the arm: Tabellenbuch Metall (Europa-Lehrmittel), cutting force and power in drilling; of the share
+/// see `usual_thrust_share`.
+///
+/// Requires the model to be what `read_cutting_model` accepts: 0 <= entry < exit <= pi, a wall for `surface`
+/// and no corner radius with it; or a cutter that drills and no axial depth.
 CutResponse respond(const CuttingModel& model);
 
 /// The force of a cut at programmed feed (m/s, 0: none) and spindle speed (1/min, 0: none). What is left
-/// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. No
-/// force acts where the feed is along the tool axis (beyond `steepest_ramp`), where no feed is programmed,
-/// and where neither model nor program give a spindle speed.
+/// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. Where
+/// the feed is along the tool axis (beyond `steepest_ramp`) only the plunge of a cutter that drills has a
+/// force, with c = feed / (n N). No force acts where no feed is programmed, where neither model nor program
+/// give a spindle speed, and where a cutter that only drills moves sideways.
 CutForce cutting_force(const CutResponse& response, double feed_m_s, double spindle_rpm, double slope);
 
 /// The same for a model that is used once.
@@ -139,6 +177,7 @@ struct ConstantForce {
 struct CutSection {
   std::string name;  ///< `section 1`, counted from 1, unless the file gives one
   Location where;
+  std::string cutter, material;  ///< names in the file
   ForceSelector selector;
   CuttingModel model;
 };
@@ -146,15 +185,19 @@ struct CutSection {
 /// Reads a TOML file of cutting models (format = "counterflex-forces 1"):
 ///
 ///     force_at = "mean" | "surface"      for all sections without `force_at`; default "mean"
-///     [cutters.NAME]                     diameter_mm, flutes, helix_deg (0 to 60)
+///     [cutters.NAME]                     diameter_mm, flutes, helix_deg (0 to 60); corner_radius_mm, 0 by
+///                                        default; point_angle_deg (60 to 180) and thrust_share, of a cutter
+///                                        that drills. Without helix_deg it only drills.
 ///     [materials.NAME]                   Ktc_N_mm2 and Krc_N_mm2; Kac_N_mm2, Kte_N_mm, Kre_N_mm, Kae_N_mm, 0
-///                                        by default; override names of `published_coefficients`
+///                                        by default; or kc11_N_mm2 and mc, with radial_share and axial_share
+///                                        of the tangential force; override names of `published_coefficients`
 ///     [[section]]                        in any number:
 ///       name                             for messages
 ///       tool = "T3", op = "POCKET*", lines = [10, 200], blocks = [10, 90]
 ///                                        which moves: those that meet all that is given
 ///       cutter, material                 names
-///       axial_depth_mm
+///       radial_share, axial_share        of a material with kc11_N_mm2, unless its table gives them
+///       axial_depth_mm                   this and the engagement not for a cutter that only drills
 ///       radial_depth_mm, side = "up" | "down"; or side = "slot"; or entry_deg and exit_deg (0 to 180)
 ///       spindle_rpm                      instead of the program's S
 ///       force_at
@@ -171,7 +214,7 @@ struct PublishedCoefficients {
   std::string material;  ///< for people
   std::string cutter;
   std::string source;
-  CuttingCoefficients coefficients;
+  CuttingCoefficients coefficients;  ///< with m_c > 0: K_tc alone, the shares are the user's
 };
 
 /// All of them, in the order of their data file `src/forces/coefficients.toml`.

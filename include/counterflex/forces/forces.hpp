@@ -312,7 +312,9 @@ struct MoveForce {
   bool changes = false;          ///< the wrench is not the same all along the move: `F` is that in the middle
   double largest_N = 0;          ///< of the force anywhere on the move
   std::vector<ForceStep> steps;  ///< what acts, from the start on; none where it changes between steps
-  std::string why;               ///< empty: F acts; else why no force acts
+  const ForceRule* model = nullptr;  ///< whose cutting model acts in the middle, of the source
+  double chip_torque = 0;            ///< N m; as in `CutForce`, not scaled
+  std::string why;                   ///< empty: F acts; else why no force acts
 };
 
 /// The feed moves of a window that is not the first: `block_number` is N of the moves before, and then of

@@ -13,7 +13,7 @@ namespace {
 
 using namespace toml_file;
 
-constexpr double steepest_helix_deg = 60;
+constexpr double steepest_helix_deg = 60, sharpest_point_deg = 60;
 constexpr long most_flutes = 100;
 // Limits of plausible numbers.
 constexpr double narrowest_mm = 0.001, widest_mm = 1000, slowest_rpm = 1, fastest_rpm = 1e6;
@@ -134,17 +134,87 @@ void take_engagement(const Part& part, CuttingModel& model) {
         "exit_deg = 180");
 }
 
-EndMill read_cutter(const toml::node& node, const std::string& owner, const Source& source) {
+/// The corner of the end and the point, which a cutter may have.
+void read_end(const toml::table& table, const Source& source, EndMill& mill) {
+  if (const toml::node* corner = table.get("corner_radius_mm")) {
+    mill.corner_radius = as_between(*corner, {"corner_radius_mm"}, 0, widest_mm, source) * mm;
+    if (mill.corner_radius > mill.diameter / 2 * (1 + 1e-12))
+      source.fail(*corner, fmt::format("corner_radius_mm is {:.6g}; it must not be greater than half of the "
+                                       "diameter, {:.6g} mm, which is a ball nose",
+                                       mill.corner_radius / mm, mill.diameter / 2 / mm));
+  }
+  const toml::node *point = table.get("point_angle_deg"), *share = table.get("thrust_share");
+  if (point != nullptr)
+    mill.point_angle = as_between(*point, {"point_angle_deg"}, sharpest_point_deg, 180, source) * deg;
+  if (share == nullptr) return;
+  if (point == nullptr)
+    source.fail(*share, "thrust_share is of a cutter that drills; give its point_angle_deg, too");
+  mill.thrust_share = read_share(*share, "thrust_share", source);
+}
+
+Cutter read_cutter(const toml::node& node, const std::string& owner, const Source& source) {
   const toml::table& table = as_table(node, owner, source);
-  check_keys(table, {"diameter_mm", "flutes", "helix_deg"}, owner, source);
+  check_keys(table,
+             {"diameter_mm", "flutes", "helix_deg", "corner_radius_mm", "point_angle_deg", "thrust_share"},
+             owner, source);
   const toml::node& diameter = required(table, "diameter_mm", owner, node, source);
   const toml::node& flutes = required(table, "flutes", owner, node, source);
-  const toml::node& helix = required(table, "helix_deg", owner, node, source);
-  EndMill mill;
+  Cutter cutter;
+  EndMill& mill = cutter.mill;
+  cutter.mills = table.contains("helix_deg") || !table.contains("point_angle_deg");
+  const toml::node* helix = cutter.mills ? &required(table, "helix_deg", owner, node, source) : nullptr;
   mill.diameter = as_between(diameter, {"diameter_mm"}, narrowest_mm, widest_mm, source) * mm;
   mill.flutes = static_cast<int>(as_whole(flutes, {"flutes"}, 1, most_flutes, source));
-  mill.helix = as_between(helix, {"helix_deg"}, 0, steepest_helix_deg, source) * deg;
-  return mill;
+  if (helix != nullptr) mill.helix = as_between(*helix, {"helix_deg"}, 0, steepest_helix_deg, source) * deg;
+  read_end(table, source, mill);
+  return cutter;
+}
+
+/// Completes Kienzle's law by the shares of the section or of the material. A section that only drills needs
+/// none.
+void take_material(const Part& part, const Material& material, bool mills, CuttingModel& model) {
+  model.coefficients = material.coefficients;
+  const auto share = [&](std::string_view key, const std::optional<double>& of_material) {
+    const toml::node* node = part.table.get(key);
+    if (node != nullptr && (!material.is_kienzle || !mills))
+      part.source.fail(
+          key_of(part.table, key),
+          mills ? fmt::format("{} is for materials with kc11_N_mm2 and mc; this one has Ktc_N_mm2", key)
+                : fmt::format("{} is for sections that mill; this one only drills", key));
+    if (node != nullptr) return read_share(*node, key, part.source);
+    if (of_material || !mills) return of_material.value_or(0);
+    part.source.fail(
+        *part.table.get("material"),
+        fmt::format("the material gives the tangential force only; give {} in {} or in the "
+                    "material: the part of that force, {} in the milled aluminium of counterflex "
+                    "forces --materials",
+                    key, part.name, key == "radial_share" ? "0.16 to 0.59" : "0.04 to 0.43"));
+  };
+  if (!material.is_kienzle && !part.table.contains("radial_share") && !part.table.contains("axial_share"))
+    return;
+  model.coefficients.K_rc = share("radial_share", material.radial_share) * model.coefficients.K_tc;
+  model.coefficients.K_ac = share("axial_share", material.axial_share) * model.coefficients.K_tc;
+}
+
+/// A section without a depth drills. Nothing about a cut sideways belongs into it.
+void refuse_engagement(const Part& part) {
+  for (const std::string_view key : {"side", "radial_depth_mm", "entry_deg", "exit_deg", "force_at"})
+    if (part.table.contains(key))
+      part.source.fail(
+          key_of(part.table, key),
+          fmt::format("{} has no axial_depth_mm, so it only drills; {} is for milling", part.name, key));
+}
+
+/// The local angles of a cutter whose width changes over the depth are those of the radial depth.
+void take_corner(const Part& part, CuttingModel& model) {
+  if (model.mill.corner_radius == 0) return;
+  if (model.force_at == ForceAt::surface)
+    part.source.fail(*part.table.get("cutter"),
+                     "the cutter has a corner radius; force_at = \"surface\" is for cutters without one, use "
+                     "\"mean\"");
+  if (const toml::node* depth = part.table.get("radial_depth_mm"))
+    if (model.wall != Wall::both)
+      model.radial_depth = as_positive(*depth, {"radial_depth_mm"}, {part.source}) * mm;
 }
 
 }  // namespace
@@ -167,20 +237,36 @@ CutSection read_cut_section(const toml::node& node, std::size_t number, const Cu
                             const Source& source) {
   const std::string counted = fmt::format("section {}", number);
   const toml::table& table = as_table(node, counted, source);
-  check_keys(table,
-             {"name", "tool", "op", "lines", "blocks", "cutter", "material", "axial_depth_mm",
-              "radial_depth_mm", "side", "entry_deg", "exit_deg", "spindle_rpm", "force_at"},
-             "a section", source);
+  check_keys(
+      table,
+      {"name", "tool", "op", "lines", "blocks", "cutter", "material", "axial_depth_mm", "radial_depth_mm",
+       "side", "entry_deg", "exit_deg", "spindle_rpm", "force_at", "radial_share", "axial_share"},
+      "a section", source);
   const toml::node* name = table.get("name");
   const Part part{node, table, name == nullptr ? counted : as_text(*name, "name", source), source};
-  CutSection section{part.name, source.at(node.source()), read_selector(table, source), {}};
+  CutSection section{part.name, source.at(node.source()), {}, {}, read_selector(table, source), {}};
   CuttingModel& model = section.model;
-  model.mill = named(part, "cutter", library.cutters, "cutters");
-  model.coefficients = named(part, "material", library.materials, "materials");
-  model.axial_depth = axial_depth(part, model.mill.diameter);
-  const toml::node* force_at = table.get("force_at");
-  model.force_at = force_at == nullptr ? library.force_at : read_force_at(*force_at, source);
-  take_engagement(part, model);
+  const Cutter& cutter = named(part, "cutter", library.cutters, "cutters");
+  const Material& material = named(part, "material", library.materials, "materials");
+  model.mill = cutter.mill;
+  section.cutter = as_text(*table.get("cutter"), "cutter", source);
+  section.material = as_text(*table.get("material"), "material", source);
+  const bool mills = table.contains("axial_depth_mm") || cutter.mill.point_angle == 0;
+  if (mills) {
+    if (!cutter.mills)
+      source.fail(*table.get("axial_depth_mm"),
+                  fmt::format("the cutter \"{}\" has no helix_deg, so it only drills; give it one, or leave "
+                              "axial_depth_mm out",
+                              section.cutter));
+    model.axial_depth = axial_depth(part, model.mill.diameter);
+    const toml::node* force_at = table.get("force_at");
+    model.force_at = force_at == nullptr ? library.force_at : read_force_at(*force_at, source);
+    take_engagement(part, model);
+    take_corner(part, model);
+  } else {
+    refuse_engagement(part);
+  }
+  take_material(part, material, mills, model);
   if (const toml::node* rpm = table.get("spindle_rpm"))
     model.spindle_rpm = as_between(*rpm, {"spindle_rpm"}, slowest_rpm, fastest_rpm, source);
   return section;

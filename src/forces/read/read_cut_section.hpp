@@ -5,7 +5,12 @@
 
 namespace counterflex::force_file {
 
-using Cutters = std::map<std::string, EndMill, std::less<>>;
+struct Cutter {
+  EndMill mill;
+  bool mills = true;  ///< has a helix angle
+};
+
+using Cutters = std::map<std::string, Cutter, std::less<>>;
 
 /// Definitions that sections refer to.
 struct CutLibrary {
