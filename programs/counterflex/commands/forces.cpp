@@ -3,7 +3,9 @@
 #include <algorithm>
 
 #include "commands/commands.hpp"
+#include "commands/fit_forces.hpp"
 #include "commands/forces_table.hpp"
+#include "commands/forces_walk.hpp"
 #include "commands/materials.hpp"
 #include "process/standard_output.hpp"
 #include "run/outputs.hpp"
@@ -155,14 +157,15 @@ class MoveListing {
     if (page_) page_->write(text);
   }
 
-  const std::string& program_;
+  std::string program_;
   bool json_, to_stdout_ = false, is_first_ = true;
   ForceTotals totals_;
   std::optional<FileWriter> profile_, page_;
 };
 
-void list_moves(const PathInput& input, const ForceSource& source, const Run* run, int lines,
-                MoveListing& listing, Console& console) {
+/// Calls `take` for each window, with its path and the forces of its feed moves.
+void walk_windows(const PathInput& input, const ForceSource& source, const Run* run, int lines,
+                  Console& console, const TakeWindow& take) {
   ProgramReader reader(input.bytes, input.name, input.read);
   ToolAxes tool(run);
   std::optional<long> block_number;
@@ -176,34 +179,52 @@ void list_moves(const PathInput& input, const ForceSource& source, const Run* ru
     if (!path.segments.empty())
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
     const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
-    for (const MoveForce& move : move_forces(source, reader.window(), path, R_MT, block_number))
-      listing.add(move);
+    take(source, reader.window(), path, move_forces(source, reader.window(), path, R_MT, block_number));
   }
   input.bytes.refuse_change();
-  listing.finish(console);
-  console.finish_warnings();
 }
 
 }  // namespace
 
+void walk_forces(const Options& options, Console& console, const BeginWalk& begin, const TakeWindow& take) {
+  if (options.machine.empty()) {
+    BareRun run = prepare_bare_run(options, console);
+    const ForceSource& source = run.force_input.source;
+    begin(run.scan.program.file, source);
+    return walk_windows({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
+                        source, nullptr, run.scan.program.lines, console, take);
+  }
+  const auto run = prepare_run(options, console);
+  const ForceSource& source = run->force_input.source;
+  begin(run->program.file, source);
+  walk_windows({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored}, source,
+               run.get(), run->program.lines, console, take);
+}
+
 std::optional<ErrorKind> run_forces(const Options& options, Console& console) {
-  if (options.forces_table.materials) {
+  const ForcesOptions& table = options.forces_table;
+  if (table.materials) {
     write_result(materials_page(options.json));
     return std::nullopt;
   }
   if (options.program.empty()) throw InputError(ErrorKind::usage, {}, "PROGRAM is required, or --materials");
+  if (table.fit != table.log.has_value())
+    throw InputError(ErrorKind::usage, {},
+                     table.fit ? "forces fit needs --log, the spindle's power or torque (.csv)"
+                               : "--log is for forces fit, which identifies coefficients");
+  if (table.fit) return fit_forces(options, console);
   check_output(options, profile_mark);
-  if (options.machine.empty()) {
-    BareRun run = prepare_bare_run(options, console);
-    MoveListing listing(options, run.scan.program.file, acts_at_platform(run.force_input.source));
-    list_moves({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
-               run.force_input.source, nullptr, run.scan.program.lines, listing, console);
-    return std::nullopt;
-  }
-  const auto run = prepare_run(options, console);
-  MoveListing listing(options, run->program.file, acts_at_platform(run->force_input.source));
-  list_moves({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored},
-             run->force_input.source, run.get(), run->program.lines, listing, console);
+  std::optional<MoveListing> listing;
+  walk_forces(
+      options, console,
+      [&](const std::string& program, const ForceSource& source) {
+        listing.emplace(options, program, acts_at_platform(source));
+      },
+      [&](const ForceSource&, const Program&, const Toolpath&, const std::vector<MoveForce>& moves) {
+        for (const MoveForce& move : moves) listing->add(move);
+      });
+  listing->finish(console);
+  console.finish_warnings();
   return std::nullopt;
 }
 

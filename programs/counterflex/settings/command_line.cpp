@@ -94,6 +94,11 @@ void translate_help(std::vector<std::string>& words) {
   words.emplace_back("--help");
 }
 
+/// "counterflex forces fit O1001.NC" is "counterflex forces --fit O1001.NC".
+void translate_fit(std::vector<std::string>& words) {
+  if (words.size() > 1 && words[0] == "forces" && words[1] == "fit") words[1] = "--fit";
+}
+
 /// "counterflex O1001.NC" is "counterflex compensate O1001.NC". Throws `InputError` (ErrorKind::usage) for a
 /// first word that is neither a command nor a file.
 void add_missing_command(std::vector<std::string>& words, const CLI::App& app) {
@@ -198,6 +203,7 @@ std::variant<Options, std::optional<ErrorKind>> read_command_line(int argc, cons
       return std::nullopt;
     }
     translate_help(words);
+    translate_fit(words);
     add_missing_command(words, app);
     refuse_shard_of_program(words);
     refuse_unknown_option(words, app);

@@ -246,16 +246,23 @@ void add_show_forces(CLI::App& app, Options& options) {
                                   "Show the wrench of every feed move, or write it as a force profile",
                                   "  counterflex forces O1001.NC -f cutting.toml -m machine.toml\n"
                                   "  counterflex forces O1001.NC -f cutting.toml -o profile.csv\n"
-                                  "  counterflex forces --materials");
+                                  "  counterflex forces --materials\n"
+                                  "  counterflex forces fit O1001.NC -f cutting.toml --log power.csv -o "
+                                  "fitted.toml");
   command.add_option("PROGRAM", options.program, "The machining program; - is standard input")->type_name("");
   add_setting(command, options, "machine",
               "The machine on which the program runs (without it the tool is along z of the program)");
   value_option(command, "-o,--output", "OUTPUT",
-               "Write a force profile (.csv); -: to standard output, instead of the table",
+               "Write a force profile (.csv), or the fitted cutting model (.toml); -: to standard output, "
+               "instead of the table",
                [&](const std::string& text) { options.output = text; });
   add_setting(command, options, "force-overwrite");
   command.add_flag("--materials", options.forces_table.materials,
                    "List the built-in cutting coefficients with their sources");
+  command.add_flag("--fit", options.forces_table.fit,
+                   "Identify the coefficients of the cutting model from --log; also written as forces fit");
+  value_option(command, "--log", "LOG", "Of --fit: spindle power or torque over time or by line (.csv)",
+               [&](const std::string& text) { options.forces_table.log = text; });
   add_forces(command, options);
   add_reading(command, options);
   add_config(command, options);

@@ -68,7 +68,9 @@ struct CompareOptions {
 };
 
 struct ForcesOptions {
-  bool materials = false;  ///< list the materials whose coefficients are known
+  bool materials = false;          ///< list the materials whose coefficients are known
+  bool fit = false;                ///< identify coefficients
+  std::optional<std::string> log;  ///< of the spindle, a file
 };
 
 struct AnalyzeOptions {
