@@ -90,6 +90,20 @@ for (const webgl of [true, false])
     assert.equal((await state(page)).machine, '');
   }, {webgl}));
 
+for (const webgl of [true, false])
+  test(`the force is drawn on the path if chosen, ${webgl ? 'with' : 'without'} WebGL`, () => visit('pocket', async (page) => {
+    const picture = () => page.$eval('#path-view .scene-canvas', (canvas) => canvas.toDataURL());
+    const shown = (forces) => page.waitForFunction((on) => document.querySelector('#path-view .scene-view').dataset.forces === on, forces);
+    await shown('false');
+    const before = await picture();
+    await page.check('input[name=forces]');
+    await shown('true');
+    assert.notEqual(await picture(), before);
+    await page.uncheck('input[name=forces]');
+    await shown('false');
+    assert.equal(await picture(), before);
+  }, {webgl}));
+
 test('the machine follows the mouse over a curve', () => visit('face', async (page) => {
   await page.check('input[name=machine]');
   const [selected] = await tip_and_place(page);

@@ -31,7 +31,7 @@
   /** The view of runs; at least one has a path. */
   class Scene {
     constructor(container, {runs, units, selection, hovered}) {
-      Object.assign(this, {container, runs, units, selection, hovered, hover: -1, frame: 0, points: null, ownFactor: false});
+      Object.assign(this, {container, runs, units, selection, hovered, hover: -1, frame: 0, points: null, ownFactor: false, withForces: false});
       this.facts = picture.survey(runs);
       this.machines = runs.map((run) => (skeleton.usable(run) ? {linesAt: skeleton.follow(run), box: this.relative(skeleton.boxOf(run.machine))} : null));
       const run = picture.usable(runs[selection.run]) ? selection.run : runs.findIndex(picture.usable);
@@ -51,7 +51,7 @@
       const anywhere = (kind) => this.runs.some((run) => picture.knows(run, kind));
       return {kinds: counterflex.pathModel.kinds.map((value) => ({value, enabled: anywhere(value)})),
         runs: this.runs.map((run) => ({text: picture.nameOf(run), enabled: picture.usable(run)})),
-        steps: this.facts.steps, machine: this.machines.some(Boolean)};
+        steps: this.facts.steps, machine: this.machines.some(Boolean), forces: this.runs.some(counterflex.forceArrows.usable)};
     }
 
     /** A box relative to the origin of the pictures. */
@@ -78,6 +78,12 @@
       this.move({...this.camera, fitted: true});
     }
 
+    /** Shows or hides the arrows of the force. */
+    showForces(on) {
+      this.withForces = on;
+      this.schedule();
+    }
+
     /** The box of what is shown. */
     box() {
       const machine = this.machine();
@@ -91,6 +97,7 @@
         run: (run) => this.show(this.shown.kind, run),
         exaggerate: (factor) => this.exaggerate(factor),
         machine: (on) => this.showMachine(on),
+        forces: (on) => this.showForces(on),
         save: () => counterflex.chartFiles.saveCanvas(this.parts.canvas, picture.fileName(this.runs[this.shown.run], this.shown.kind)),
         look: (name) => this.move({...this.camera, ...counterflex.camera.views[name], fitted: true}),
         turn: (dx, dy) => this.move(counterflex.camera.turn(this.camera, -0.01 * dx, 0.01 * dy)),
@@ -119,7 +126,7 @@
       this.shown = shown;
       this.hover = -1;
       this.points = null;
-      this.controls.update(shown, this.withMachine);
+      this.controls.update(shown, this.withMachine, this.withForces);
       this.schedule();
     }
 
@@ -258,7 +265,8 @@
       this.camera = this.fitted(size);
       if (span !== this.camera.span) this.points = null;
       picture.paint(this.view, this.parts.canvas, size, {shown: this.shown, camera: this.camera, units: this.units,
-        theme: counterflex.colours.themeOf(this.container), marked: this.marked(), machine: this.machineLines()});
+        theme: counterflex.colours.themeOf(this.container), marked: this.marked(), machine: this.machineLines(),
+        forces: this.withForces});
       this.announce();
     }
 
@@ -272,7 +280,7 @@
       const {kind, run, factor} = this.shown;
       Object.assign(this.parts.root.dataset, {renderer: this.view.name, kind, run, factor, stretch,
         centre: centre.join(' '), span: this.camera.span.toPrecision(6),
-        machine: this.machineTip(), azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
+        machine: this.machineTip(), forces: this.withForces, azimuth: degrees(this.camera.azimuth), elevation: degrees(this.camera.elevation)});
     }
 
     /** The tip of the machine that is shown; '' without one. */

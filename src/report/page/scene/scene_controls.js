@@ -62,11 +62,19 @@
     }};
   }
 
+  /** Shows arrows of the cutting force. */
+  function forceSwitch(show) {
+    const input = el('input', {type: 'checkbox', name: 'forces', change: () => show(input.checked)});
+    return {element: el('label', {class: 'choice', title: 'The cutting force on the tool at places along the path'}, input, el('span', null, 'forces')), set(on) {
+      input.checked = on;
+    }};
+  }
+
   const kindTexts = {wanted: 'wanted', before: 'before', after: 'after (model residual)'};
 
   /**
-   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps, machine: whether there is one}, `act` = {show(kind),
-   * run(index), exaggerate(factor), machine(on), look(view), save()}. Returns {element, update({kind, run, factor}, machine)}.
+   * All controls: `options` = {kinds: [{value, enabled}], runs: [{text, enabled}], steps, machine and forces: whether there are any}, `act` = {show(kind),
+   * run(index), exaggerate(factor), machine(on), forces(on), look(view), save()}. Returns {element, update({kind, run, factor}, machine, forces)}.
    */
   function create(options, act) {
     const kinds = radios('Path', options.kinds.map((kind) => ({...kind, text: kindTexts[kind.value]})), act.show);
@@ -75,13 +83,15 @@
     const factor = slider(options.steps, act.exaggerate);
     const shift = shiftSwitch(act.show);
     const machine = options.machine ? machineSwitch(act.machine) : null;
+    const forces = options.forces ? forceSwitch(act.forces) : null;
     const save = el('button', {type: 'button', click: act.save}, 'PNG');
-    const parts = [kinds.element, shift.element, ...(runs ? [runs.element] : []), factor.element, ...(machine ? [machine.element] : []), viewButtons(act.look), save];
-    return {element: el('div', {class: 'scene-controls'}, parts), update(state, withMachine) {
+    const parts = [kinds.element, shift.element, ...(runs ? [runs.element] : []), factor.element, ...(machine ? [machine.element] : []), ...(forces ? [forces.element] : []), viewButtons(act.look), save];
+    return {element: el('div', {class: 'scene-controls'}, parts), update(state, withMachine, withForces) {
       kinds.set(state.kind === 'shifted' ? 'before' : state.kind);
       shift.set(state.kind);
       if (runs) runs.set(state.run);
       if (machine) machine.set(withMachine);
+      if (forces) forces.set(withForces);
       factor.set(state.factor);
     }};
   }

@@ -123,15 +123,18 @@
 
   /**
    * Draws `shown` with a `view` (flat or WebGL) on a canvas of `size` = {width, height, ratio}. `marked`: places with
-   * a ring and a label, {stretch, radius in pixels}. `machine`: {lines, origin} of skeleton.js, or undefined.
+   * a ring and a label, {stretch, radius in pixels}. `machine`: {lines, origin} of skeleton.js, or undefined;
+   * `forces`: whether arrows of the force are drawn.
    */
-  function paint(view, canvas, size, {shown, theme, camera, units, marked, machine}) {
+  function paint(view, canvas, size, {shown, theme, camera, units, marked, machine, forces}) {
     canvas.width = Math.round(size.width * size.ratio);
     canvas.height = Math.round(size.height * size.ratio);
     const context = canvas.getContext('2d');
     const project = counterflex.camera.projector(camera, size);
     view.draw(context, size, {theme, camera, layers: layers(shown, theme), reach: reachOf(camera.centre, shown.box)});
     if (machine) counterflex.skeleton.draw(context, machine, project, theme);
+    if (forces)
+      counterflex.forceArrows.draw(context, size, {curves: shown.curves, placeOf: (stretch) => placeOf(shown, stretch), camera, project, theme});
     counterflex.overlay.draw(context, size, {theme, camera, units,
       marks: marked.map((each) => mark(each, shown, project, units)),
       bar: {title: titleOf(shown, units.label), range: shown.range, letter: shown.letter, tolerance_mm: shown.tolerance_mm},
