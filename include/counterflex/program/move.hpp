@@ -188,6 +188,9 @@ enum class Handling : std::uint8_t {
   group,  ///< by the common shift of its contour group under G41 or G42
 };
 
+/// Side of a contour in the plane X Y on which the cutter goes: G41 and RL, G42 and RR.
+enum class CutterSide : std::uint8_t { none, left, right };
+
 /// Whether the position is known on all three axes.
 inline bool all_known(const std::array<bool, 3>& known) {
   return known[0] && known[1] && known[2];
@@ -258,6 +261,9 @@ struct Move {
   bool may_split : 1 = false;
   /// A feed move may be inserted before it: start and feed are known, no exact stop.
   bool may_jump : 1 = false;
+  /// Of a move beside a contour, not of those that approach or leave it. A larger radius of the cutter moves
+  /// the tool to this side.
+  CutterSide cutter_side : 2 = CutterSide::none;
   bool may_insert_words : 1 = true;  ///< axis words may be inserted; false for a block with G43, G44 or G49
 };
 static_assert(sizeof(Move) <= 264, "programs have millions of moves");

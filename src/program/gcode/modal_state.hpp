@@ -103,7 +103,8 @@ struct ModalState {
   std::uint16_t offsets_set = 0;  ///< by G10: a bit for each of G54 to G59.3, the highest for others
   bool entering_data = false;     ///< between G10 L50 and G11, where blocks are parameters
   Contour contour = Contour::none;
-  int group = 0;                ///< number of the contour
+  int group = 0;                              ///< number of the contour
+  CutterSide cutter_side = CutterSide::none;  ///< of the contour, if it is in the plane X Y
   bool beside_contour = false;  ///< in a contour: a move across has brought the cutter to its side
 };
 

@@ -60,6 +60,10 @@ void add_unfollowed_approach(const KlartextBlock& block, KlartextReading& r) {
   if (block.head == "APPR") r.state.displacements[0] = "a contour entered by this APPR is not corrected";
 }
 
+CutterSide side_of(const std::vector<KlartextWord>& words) {
+  return find_word(words, "RL") != nullptr ? CutterSide::left : CutterSide::right;
+}
+
 /// APPR and DEP are shifted with their contour. The path between their points is not followed, nor is the end
 /// of a DEP without a point.
 void place_approach(const KlartextBlock& block, KlartextReading& r) {
@@ -83,6 +87,7 @@ void place_approach(const KlartextBlock& block, KlartextReading& r) {
   if (block.head == "APPR") begin_contour(r);
   join_contour(move, r.state.groups);
   r.state.contour = r.state.beside_contour = block.head == "APPR";
+  if (block.head == "APPR") r.state.cutter_side = side_of(r.words);
   r.state.after_contour = block.head == "DEP";
   r.state.corner.reset();
   r.state.pole.reset();
@@ -97,13 +102,17 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
   const bool line = block.head == "L";
   const KlartextWord* off = line ? find_word(r.words, "R") : nullptr;
   const bool on = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
+  const bool is_beside = state.contour && state.beside_contour;
   if (state.after_contour && !is_along_z(move)) state.after_contour = false;
   if (on && !state.contour) begin_contour(r);
   if (on) state.contour = true, state.after_contour = state.beside_contour = false;
+  if (on) state.cutter_side = side_of(r.words);
   const bool divides = move.arc && move.may_split && state.contour && state.beside_contour;
+  const bool leaves = off != nullptr && state.contour;
+  if (is_beside && state.contour && !leaves && !is_along_z(move)) move.cutter_side = state.cutter_side;
   if (state.contour || state.after_contour) join_contour(move, state.groups);
   if (divides) move.may_split = true;
-  if (off != nullptr && state.contour) {
+  if (leaves) {
     state.contour = state.beside_contour = false;
     state.after_contour = true;
   }

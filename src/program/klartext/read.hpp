@@ -60,11 +60,12 @@ struct KlartextState {
   bool calls_each = false;                 ///< M89: every move ends with the cycle, until M99
   /// Q200 and Q204 of that cycle, above the surface.
   std::optional<double> clearance_mm, second_clearance_mm;
-  std::optional<KlartextSurface> surface;  ///< surface of that cycle, if all of it shifts with the surface
-  std::optional<CornerSize> corner;        ///< RND or CHF before the next move
-  bool contour = false;                    ///< RL or RR is active
-  bool beside_contour = false;             ///< a move across has brought the tool to its side
-  bool after_contour = false;              ///< only moves along Z since the R0 that ended it
+  std::optional<KlartextSurface> surface;     ///< surface of that cycle, if all of it shifts with the surface
+  std::optional<CornerSize> corner;           ///< RND or CHF before the next move
+  bool contour = false;                       ///< RL or RR is active
+  CutterSide cutter_side = CutterSide::none;  ///< of that contour
+  bool beside_contour = false;                ///< a move across has brought the tool to its side
+  bool after_contour = false;                 ///< only moves along Z since the R0 that ended it
   int groups = 0;
   /// Index of the first move of the window after the last one that is not followed.
   std::size_t run_begin = 0;

@@ -27,6 +27,21 @@ TEST_CASE("a contour extends from the last move across before its plunge to the 
         Groups{0, 0, 1, 1, 1, 1, 1, 1, 1, 1, 0, 0});
 }
 
+TEST_CASE("moves beside a contour know the side of the cutter, those to it, from it and along Z do not") {
+  const auto sides_of = [](const std::string& text) {
+    std::vector<CutterSide> sides;
+    for (const Move& move : read("G21 G90 F100 G0 X0. Y0. Z10.\n" + text).moves)
+      sides.push_back(move.cutter_side);
+    return sides;
+  };
+  constexpr auto none = CutterSide::none, left = CutterSide::left, right = CutterSide::right;
+  using Sides = std::vector<CutterSide>;
+  CHECK(sides_of("X2\nG1 Z0\nG41 D1 X3\nY4\nG3 Y2 J-1\nZ-1\nX1\nG40 X2\nX5\n") ==
+        Sides{none, none, none, none, left, left, none, left, none, none});
+  CHECK(sides_of("G42 D1\nG1 X3\nY4\nG40\nX5\n") == Sides{none, none, right, none});
+  CHECK(sides_of("G18\nG41 D1 G1 X3\nX4\nG40 X2\n") == Sides{none, none, none, none});
+}
+
 TEST_CASE("G41 and G40 may be alone in a block") {
   CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nG1 X1\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 1, 0});
   CHECK(groups_of("X2\nZ1\nG41 D1\nG1 X3\nY4\nG40\nZ1\nX0\n") == Groups{0, 1, 1, 1, 1, 1, 0});

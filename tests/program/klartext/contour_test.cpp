@@ -15,6 +15,22 @@ TEST_CASE("klartext: a contour under RL is one group from the move above its plu
   CHECK(program.moves[7].handling == Handling::own);
 }
 
+TEST_CASE("klartext: moves beside a contour know the side of the cutter") {
+  constexpr auto none = CutterSide::none, left = CutterSide::left, right = CutterSide::right;
+  const auto sides_of = [](const std::vector<std::string>& lines) {
+    std::vector<CutterSide> sides;
+    for (const Move& move : read(klartext(lines)).moves) sides.push_back(move.cutter_side);
+    return sides;
+  };
+  using Sides = std::vector<CutterSide>;
+  CHECK(sides_of({"L X+50 Y-7 Z+2 R0 FMAX", "L Y+2 RL F200", "L X+7", "L X+5 Y+9", "L Y-7 R0"}) ==
+        Sides{none, none, left, left, none});
+  CHECK(sides_of({"L X+50 Y-7 Z+2 R0 FMAX", "L Y+2 RR F200", "L X+7 RR", "L X+5 Y+9 RR", "L Y-7 R0"}) ==
+        Sides{none, none, right, right, none});
+  CHECK(sides_of({"L X+120 Y+0 Z+1 R0 FMAX", "APPR LCT X+45 Y+0 R20 RL F220", "L X+45 Y-18", "L X+18 Y-45",
+                  "DEP LCT X+120 Y+0 R20"}) == Sides{none, none, left, left, none});
+}
+
 TEST_CASE("klartext: a contour is shifted with its polar arcs") {
   const Program program = read(
       klartext({"L X+10 Y+0 Z+5 FMAX", "L X+9 RL F100", "CC X+4 Y+0", "CP IPA+90 DR+", "L X+3", "L Y-7 R0"}));

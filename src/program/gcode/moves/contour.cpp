@@ -67,7 +67,9 @@ std::size_t first_before_contour(const Program& program, std::size_t run_begin) 
 
 void apply_cutter(Reading& r) {
   ModalState& state = r.state;
-  if (r.sorted.has(Action::cutter)) {
+  if (const FoundG* cutter = r.sorted.find(Action::cutter)) {
+    const CutterSide side = cutter->code->tenths < 420 ? CutterSide::left : CutterSide::right;
+    state.cutter_side = state.normal == 2 ? side : CutterSide::none;
     state.beside_contour = false;
     if (state.contour != Contour::inside) {
       state.group = r.groups + 1;
@@ -92,6 +94,7 @@ void join_contour(Reading& r) {
     const bool divides = may_divide(r, move);
     put_into(move, state.group);
     move.may_split = divides;
+    if (!outside && state.beside_contour && !is_along_z(move)) move.cutter_side = state.cutter_side;
   }
   if (!is_along_z(move)) state.beside_contour = state.contour == Contour::inside;
   if (outside) state.contour = Contour::leaving;
