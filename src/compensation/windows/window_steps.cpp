@@ -1,5 +1,6 @@
 #include "compensation/windows/window_steps.hpp"
 
+#include "compensation/shift/commands.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -105,6 +106,19 @@ WindowSteps steps_of_prediction(PathCarry& carry) {
           .write =
               [&carry](const Job& job, WindowWork& work) {
                 work.pieces = original_pieces(job);
+                carry_path(job, carry, work);
+              },
+          .match = [](const Job&, WindowWork&) {},
+          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
+}
+
+WindowSteps steps_of_shifted_prediction(const ConstantShift& shift, PathCarry& carry) {
+  return {.questions = {.before = false, .attribution = false, .inside = false},
+          .prepare = [](const Job&, WindowWork&) {},
+          .write =
+              [&](const Job& job, WindowWork& work) {
+                work.pieces = original_pieces(job);
+                shift_pieces(job, shift, work.pieces);
                 carry_path(job, carry, work);
               },
           .match = [](const Job&, WindowWork&) {},

@@ -5,6 +5,7 @@
 #include "compensation/emit/emit.hpp"
 #include "compensation/match/match.hpp"
 #include "compensation/solve/branch.hpp"
+#include "counterflex/compensation/constant_shift.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
@@ -38,6 +39,9 @@ struct PathCarry {
 };
 
 WindowSteps steps_of_prediction(PathCarry& carry);
+
+/// With a constant shift in effect. `carry` is where the text ends alone: the way there is not followed.
+WindowSteps steps_of_shifted_prediction(const ConstantShift& shift, PathCarry& carry);
 
 /// What compensating carries from window to window.
 struct WritingCarry {

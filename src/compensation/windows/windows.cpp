@@ -209,6 +209,12 @@ std::optional<Failure> predict_windows(JobWindows& windows, int threads, const W
   return WindowRun(windows, threads, steps_of_prediction(carry), events).run();
 }
 
+std::optional<Failure> predict_shifted_windows(JobWindows& windows, int threads, const ConstantShift& shift,
+                                               const WindowEvents& events) {
+  PathCarry carry;
+  return WindowRun(windows, threads, steps_of_shifted_prediction(shift, carry), events).run();
+}
+
 std::optional<Failure> compensate_windows(JobWindows& windows, const CompensationOptions& options,
                                           TextReader corrected, bool attribution,
                                           const WindowEvents& events) {

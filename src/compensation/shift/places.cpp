@@ -1,0 +1,140 @@
+// The places that decide over a constant shift.
+#include <algorithm>
+#include <cmath>
+
+#include "compensation/shift/commands.hpp"
+#include "compensation/solve/commands.hpp"
+#include "counterflex/geometry/types.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr std::size_t most_samples = 512;   // along the path; even
+constexpr std::size_t most_strata = 8192;   // beyond it only the largest deviation of an offset is kept
+constexpr std::size_t most_largest = 1024;  // of the strata
+constexpr int bins_of_face = 4;             // directions: squares along the edge of a face of a cube
+constexpr int bins_around = 16;             // directions away from a contour
+
+// Solvers for different processors agree to less: of deviations that differ by less the first is the largest.
+constexpr double indistinct = 1e-11;
+
+int bin_of(double value, int bins) {
+  return std::clamp(static_cast<int>((value + 1) / 2 * bins), 0, bins - 1);
+}
+
+// The square of a cube's surface that a direction goes through.
+long bin_of_direction(const Vector3& d) {
+  Eigen::Index face = 0;
+  const double size = d.cwiseAbs().maxCoeff(&face);
+  if (!(size > 0)) return 0;
+  const Vector3 on = d / size;
+  const long side = 2 * face + (on[face] > 0 ? 1 : 0);
+  return (side * bins_of_face + bin_of(on[(face + 1) % 3], bins_of_face)) * bins_of_face +
+         bin_of(on[(face + 2) % 3], bins_of_face);
+}
+
+// Of a plane in which a contour is; 0 beside none.
+long bin_around(const Vector3& away) {
+  if (away.norm() < 1e-9) return 0;
+  const double around = std::atan2(away.y() + away.z(), away.x() + away.z());
+  return 1 + bin_of(around / pi, bins_around);
+}
+
+// A cell of 32 mm: where an offset is turned, the shift differs from place to place.
+long cell_of(const Vector3& p) {
+  constexpr double edge = 0.032;
+  constexpr long across = 64;
+  const auto index = [](double x) { return static_cast<long>(std::floor(x / edge)) & (across - 1); };
+  return (index(p.x()) * across + index(p.y())) * across + index(p.z());
+}
+
+}  // namespace
+
+void ShiftPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
+  for (const Waypoint& w : waypoints) {
+    if (!w.cutting || w.segment == no_segment || !w.place || w.status != Status::converged) continue;
+    const Segment& segment = job.path.segments[w.segment];
+    const Model& model = model_of(job, segment);
+    ShiftPlace place{.number = count_,
+                     .line = w.line,
+                     .wanted = wanted_at(model, w),
+                     .command = original_command(job, segment.frame, w.p_MT),
+                     .F = w.wrench,
+                     .directions = w.directions,
+                     .frame = segment.frame,
+                     .tool = job.program.moves[segment.move].tool,
+                     .away = away_from_contour(job, w.segment, w.fraction),
+                     .deviation = w.after.head<3>()};
+    at_platform_ = job.forces.at_platform();
+    const std::size_t offset = freedom_->offset_of_frame[segment.frame];
+    if (std::find(tools_.begin(), tools_.end(), place.tool) == tools_.end()) tools_.push_back(place.tool);
+    pairs_.insert({offset, place.tool});
+    if (!place.away.isZero(0)) contours_.insert(place.tool);
+    Box& box = boxes_[offset];
+    box.least = box.least.cwiseMin(w.p_MT);
+    box.most = box.most.cwiseMax(w.p_MT);
+    keep(place, offset);
+    sample(place);
+    ++count_;
+  }
+}
+
+void ShiftPlaces::keep(const ShiftPlace& place, std::size_t offset) {
+  const auto is_larger = [&](const ShiftPlace& than) {
+    return place.deviation.norm() > than.deviation.norm() + indistinct;
+  };
+  const auto [worst, is_first] = worst_.try_emplace(offset, place);
+  if (!is_first && is_larger(worst->second)) worst->second = place;
+  const Stratum stratum{static_cast<long>(offset), place.tool, bin_of_direction(place.deviation),
+                        bin_around(place.away), freedom_->turns ? cell_of(place.wanted.p_MT) : 0};
+  const auto found = strata_.find(stratum);
+  if (found != strata_.end()) {
+    if (is_larger(found->second)) found->second = place;
+  } else if (strata_.size() < most_strata) {
+    strata_.emplace(stratum, place);
+  }
+}
+
+// Every place, every second one, ...: those whose number is a multiple of the spacing.
+void ShiftPlaces::sample(const ShiftPlace& place) {
+  if (place.number % spacing_ != 0) return;
+  if (samples_.size() == most_samples) {
+    for (std::size_t i = 0; i < most_samples / 2; ++i) samples_[i] = samples_[2 * i];
+    samples_.resize(most_samples / 2);
+    spacing_ *= 2;
+    if (place.number % spacing_ != 0) return;
+  }
+  samples_.push_back(place);
+}
+
+std::vector<ShiftPlace> ShiftPlaces::places() const {
+  std::map<std::size_t, ShiftPlace> all;
+  for (const ShiftPlace& place : samples_) all.emplace(place.number, place);
+  std::vector<const ShiftPlace*> largest;
+  for (const auto& [stratum, place] : strata_) largest.push_back(&place);
+  std::ranges::stable_sort(largest, [](const ShiftPlace* a, const ShiftPlace* b) {
+    return a->deviation.norm() > b->deviation.norm();
+  });
+  largest.resize(std::min(largest.size(), most_largest));
+  for (const ShiftPlace* place : largest) all.emplace(place->number, *place);
+  for (const auto& [offset, place] : worst_) all.emplace(place.number, place);
+  std::vector<ShiftPlace> in_order;
+  for (const auto& [number, place] : all) in_order.push_back(place);
+  return in_order;
+}
+
+double ShiftPlaces::largest(std::size_t offset) const {
+  const auto found = worst_.find(offset);
+  return found == worst_.end() ? 0 : found->second.deviation.norm();
+}
+
+bool ShiftPlaces::has(std::size_t offset) const {
+  return worst_.contains(offset);
+}
+
+ShiftPlaces::Box ShiftPlaces::box(std::size_t offset) const {
+  const auto found = boxes_.find(offset);
+  return found == boxes_.end() ? Box{} : found->second;
+}
+
+}  // namespace counterflex
