@@ -129,6 +129,31 @@ struct CommonShift {
   double largest_mm() const;
 };
 
+/// The constant shifts of work offsets, tool lengths and cutter radii that leave the least deviation.
+struct BestOffsets {
+  /// What is added to the values that the control has.
+  struct OfWork {
+    std::string work;                    ///< name of the offset
+    Vector3 shift_mm = Vector3::Zero();  ///< of its origin, axes of M
+    std::optional<Vector3> turn_deg{};   ///< of its axes: rotation vector, axes of M; none: not turned
+    std::string change;                  ///< shift and turn for people: "X-0.041 Y0.012 mm"
+    std::vector<std::string> words;      ///< the new value in the control's words, a line each
+    double before_mm = 0, rest_mm = 0;   ///< largest deviation of its feed moves, and what the shifts leave
+  };
+  struct OfTool {
+    long tool = 0;
+    std::optional<double> length_mm{}, radius_mm{};  ///< none: not changed
+    std::vector<std::string> words;                  ///< a line each; empty: the control has none
+  };
+  std::vector<OfWork> work;  ///< those of feed moves
+  std::vector<OfTool> tools;
+  DeviationStatistics before, rest;  ///< of all feed moves; `rest` with the written, rounded values
+  double least_mm = 0;               ///< the largest deviation before the values are rounded
+  std::size_t passes = 0;            ///< over the program with a shift in effect
+  bool is_enough = false;            ///< every feed move is within the tolerances with the shifts
+  std::vector<std::string> notes;    ///< what was not changed, and why
+};
+
 /// What a tool of the program does at its tip, rim and flank.
 struct ToolReport {
   ToolSize size;
@@ -243,9 +268,10 @@ struct RunReport {
   std::optional<Sensitivity> sensitivity;     ///< where a force acts
   /// Largest deviation of a feed move of the corrected program without the force.
   std::optional<Largest> air;
-  std::optional<CommonShift> common_shift;  ///< none: all datums are stated, or nothing was solved
-  std::vector<ToolReport> tools_off;        ///< tools of feed moves, the largest deviation first
-  std::optional<Largest> correction;        ///< largest change of a target
+  std::optional<CommonShift> common_shift;    ///< none: all datums are stated, or nothing was solved
+  std::optional<BestOffsets> best_offsets{};  ///< if they were requested
+  std::vector<ToolReport> tools_off;          ///< tools of feed moves, the largest deviation first
+  std::optional<Largest> correction;          ///< largest change of a target
   /// Of `path_mm`: the part that is corrected, within the tolerance.
   std::optional<double> corrected_percent;
   /// In the order in which they are met; of many the last one represents all others.

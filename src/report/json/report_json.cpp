@@ -116,6 +116,33 @@ Json common_shift_json(const std::optional<CommonShift>& shift) {
           {"rest", statistics_json(shift->rest)}};
 }
 
+Json work_shift_json(const BestOffsets::OfWork& work) {
+  return {{"work", work.work.empty() ? Json(nullptr) : Json(work.work)},
+          {"shift_mm", numbers(work.shift_mm, digits)},
+          {"turn_deg", work.turn_deg ? numbers(*work.turn_deg, digits) : Json(nullptr)},
+          {"words", work.words},
+          {"before_max_mm", number(work.before_mm, digits)},
+          {"rest_max_mm", number(work.rest_mm, digits)}};
+}
+
+Json best_offsets_json(const BestOffsets& best) {
+  Json work = Json::array(), tools = Json::array();
+  for (const BestOffsets::OfWork& of : best.work) work.push_back(work_shift_json(of));
+  for (const BestOffsets::OfTool& tool : best.tools)
+    tools.push_back({{"tool", tool.tool},
+                     {"length_mm", optional_number(tool.length_mm)},
+                     {"radius_mm", optional_number(tool.radius_mm)},
+                     {"words", tool.words}});
+  return {{"work", std::move(work)},
+          {"tools", std::move(tools)},
+          {"before", statistics_json(best.before)},
+          {"rest", statistics_json(best.rest)},
+          {"least_max_mm", number(best.least_mm, digits)},
+          {"is_enough", best.is_enough},
+          {"passes", best.passes},
+          {"notes", best.notes}};
+}
+
 Json tool_deviation_json(const std::optional<ToolDeviation>& off) {
   if (!off) return nullptr;
   return {{"tip_mm", number(off->tip_mm, digits)},
@@ -450,6 +477,7 @@ std::string to_json(const RunReport& report) {
                    {"operations", operations_json(report.operations)},
                    {"units", units_json(report.units)}};
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
+  if (report.best_offsets) document["offsets"] = best_offsets_json(*report.best_offsets);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);
   if (report.uncertainty) document["uncertainty"] = uncertainty_json(*report.uncertainty);
   return dump(document);

@@ -9,6 +9,7 @@
 #include "report/names.hpp"
 #include "report/text/force_text.hpp"
 #include "report/text/loads_text.hpp"
+#include "report/text/offsets_text.hpp"
 #include "report/text/sanity_text.hpp"
 #include "report/text/text_layout.hpp"
 #include "report/text/tool_words.hpp"
@@ -326,8 +327,8 @@ std::string others_text(const OtherMoves& moves) {
 std::string details_text(const RunReport& report, bool colour, bool marks) {
   const Ink ink{colour, marks};
   std::string text = verdict_line(report, ink) + title(report, ink) + failure_text(report, ink);
-  text += deviation_table(report, ink) + uncertainty_text(report, ink) + sources_text(report, ink) +
-          worst_text(report, ink);
+  text += deviation_table(report, ink) + uncertainty_text(report, ink) + offsets_text(report, ink) +
+          sources_text(report, ink) + worst_text(report, ink);
   text += program_text(report, ink) + force_text(report, ink) + loads_text(report, ink);
   text += left_alone_text(report, ink) + machine_positions_text(report, ink) + warnings_text(report, ink);
   return text + sanity_text(report.sanity, ink) + assumptions_text(report, ink);

@@ -7,6 +7,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/names.hpp"
+#include "report/text/offsets_text.hpp"
 #include "report/text/report_text.hpp"
 #include "report/text/text_layout.hpp"
 
@@ -142,6 +143,23 @@ std::string sanity_line(const RunReport& report, const Ink& ink) {
   return ink.colour ? ink.warning(lines) : lines;
 }
 
+/// For each offset and tool a line and its words, which can be copied; then what they leave.
+std::string offsets_lines(const RunReport& report) {
+  if (!report.best_offsets) return "";
+  std::string text;
+  const auto row = [&](const std::string& what) {
+    text +=
+        wrapped(fmt::format("  {:<{}}", text.empty() ? "offsets" : "", label_width - 2), what, label_width);
+  };
+  for (const ChangeInWords& change : changes_in_words(*report.best_offsets)) {
+    row(change.change);
+    for (const std::string& words : change.words)
+      text += std::string(label_width + 2, ' ') + without_controls(words) + "\n";
+  }
+  row(rest_in_words(*report.best_offsets, report.tolerance_mm));
+  return text;
+}
+
 std::string files_line(const RunReport& report, const std::vector<std::string>& files) {
   const bool no_program = report.command == Command::compensate && report.error_kind;
   std::string text = no_program ? "no corrected program" : "";
@@ -163,8 +181,8 @@ std::string more_line(const RunReport& report) {
 std::string summary_text(const RunReport& report, const std::vector<std::string>& files, bool colour) {
   const Ink ink{colour};
   return verdict_line(report, ink) + headline(report, ink) + before_text(report) + after_text(report) +
-         uncertainty_line(report) + force_line(report) + moves_line(report) + sanity_line(report, ink) +
-         files_line(report, files) + more_line(report);
+         uncertainty_line(report) + offsets_lines(report) + force_line(report) + moves_line(report) +
+         sanity_line(report, ink) + files_line(report, files) + more_line(report);
 }
 
 }  // namespace counterflex

@@ -1,0 +1,61 @@
+#include "report/text/offsets_text.hpp"
+
+#include <fmt/format.h>
+
+namespace counterflex {
+namespace {
+
+std::string change_of(const BestOffsets::OfTool& tool) {
+  std::string text = tool.tool == 0 ? "the tool without a number:" : fmt::format("T{}:", tool.tool);
+  const auto add = [&](const char* what, const std::optional<double>& mm) {
+    if (mm) text += fmt::format(" {} {}{} mm", what, *mm > 0 ? "+" : "", mm4(*mm));
+  };
+  add("length", tool.length_mm);
+  add("radius", tool.radius_mm);
+  return text;
+}
+
+}  // namespace
+
+std::vector<ChangeInWords> changes_in_words(const BestOffsets& best) {
+  std::vector<ChangeInWords> rows;
+  for (const BestOffsets::OfWork& of : best.work)
+    rows.push_back({fmt::format("{}: add {}", of.work.empty() ? "base" : of.work, of.change), of.words});
+  for (const BestOffsets::OfTool& tool : best.tools) rows.push_back({change_of(tool), tool.words});
+  return rows;
+}
+
+std::string rest_in_words(const BestOffsets& best, double tolerance_mm) {
+  std::string text = fmt::format("leaves {} mm of {} (rms {} of {}), line {}", mm4(best.rest.max_mm),
+                                 mm4(best.before.max_mm), mm4(best.rest.rms_mm), mm4(best.before.rms_mm),
+                                 best.rest.max_line);
+  if (best.is_enough)
+    return text +
+           fmt::format("; within the tolerance of {} mm: no corrected program is needed", mm4(tolerance_mm));
+  return text +
+         (best.rest.max_mm > tolerance_mm
+              ? fmt::format("; more than the tolerance of {} mm: compensate the program", mm4(tolerance_mm))
+              : "; moves without a known deviation, or the tilt of the tool, may miss the tolerance: "
+                "compensate the program");
+}
+
+std::string offsets_text(const RunReport& report, const Ink& ink) {
+  const auto& best = report.best_offsets;
+  if (!best) return "";
+  std::string text =
+      line_break() + ink.bold("Best constant offsets") + ", added to the values of the control\n";
+  for (const ChangeInWords& row : changes_in_words(*best)) {
+    text += wrapped("  ", row.change, 4);
+    for (const std::string& words : row.words) text += "    " + without_controls(words) + "\n";
+  }
+  text += wrapped("  ", rest_in_words(*best, report.tolerance_mm), 4);
+  if (best->work.size() > 1)
+    for (const BestOffsets::OfWork& of : best->work)
+      text += before_after_row(fmt::format("largest of {}: before, and with it", of.work), mm4(of.before_mm),
+                               mm4(of.rest_mm));
+  text += fmt::format("  the least largest deviation of exact numbers is {} mm\n", mm4(best->least_mm));
+  for (const std::string& note : best->notes) text += wrapped("  ", note, 4);
+  return text;
+}
+
+}  // namespace counterflex
