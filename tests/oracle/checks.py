@@ -18,6 +18,7 @@ AT_ORIGIN = {number: (0.0, 0.0, 0.0) for number in OFFSETS}
 LENGTHS = {tool: 40.0 + 2.5 * (tool % 40) for tool in range(1, 300)}
 SQUARE = 1e-3  # rad
 TOLERANCE = 0.005
+SAME = 2e-6  # mm: what the seventh decimal of an inch hides
 
 
 class Shop:
@@ -182,6 +183,49 @@ def field_turned(shop, program):
     return field(shop, program, turned=(SQUARE, -0.5 * SQUARE, 0.3 * SQUARE))
 
 
+def offsets(shop, program):
+    """LinuxCNC takes the words of predict --offsets: all motion moves by exactly their change, and leaves what they promise."""
+    gantry = shop.gantry(program, shift=product.FRAME_SHIFT, squareness=(SQUARE, -SQUARE, SQUARE), offsets=OFFSETS)
+    report, said = shop.runs.offsets(program, gantry, shop.options(program))
+    if not report:
+        shop.notes.append('%s: refused: %s' % (os.path.basename(program), (said.splitlines() or [''])[-1]))
+        shop.refused.add(program)
+        return ''
+    found, lines = report['offsets'], plain.plain_lines(open(program, 'rb').read())
+    unit = 'G20' if facts.says_inches_first(lines) else 'G21'
+    words = [word for work in found['work'] for word in work['words']]
+    stated = 'G20' if report['units']['program'] == 'inch' else 'G21'
+    bench = shop.bench(OFFSETS, {})
+    try:
+        before = path.walk(bench, lines, unit)
+    except path.Refused as error:
+        shop.notes.append('%s: LinuxCNC does not read it: %s' % (os.path.basename(program), error))
+        return ''
+    begin = next((number for number, line in enumerate(lines, 1) if line.strip() == '%'), 0)
+    after = path.walk(bench, lines[:begin] + [stated, *words, unit] + lines[begin:], unit)
+    if len(before) != len(after):
+        return '%d steps became %d' % (len(before), len(after))
+    shifts, worst = [work['shift_mm'] for work in found['work']] + [[0, 0, 0]], 0
+    for a, b in zip(before, after):
+        moved = [q - p for p, q in zip(a.offset, b.offset)]
+        if not any(max(abs(m - s) for m, s in zip(moved, shift)) < SAME for shift in shifts):
+            return 'line %d: the offset moves by %s instead of one of %s' % (a.line, moved, shifts)
+        same = [abs(p - q) < SAME for p, q in zip(a.end, b.end)]
+        rests = [abs(q + m - p) < SAME for p, q, m in zip(a.end, b.end, moved)]  # an axis that has no word yet
+        if not all(s or r for s, r in zip(same, rests)):
+            return 'line %d: program coordinates change from %s to %s' % (a.line, a.end, b.end)
+        if a.kind in ('feed', 'arc') and all(same):
+            wanted, reached = [p + o for p, o in zip(a.end, a.offset)], gantry.reached([p + o for p, o in zip(b.end, b.offset)])
+            worst = max(worst, sum((r - w) ** 2 for r, w in zip(reached, wanted)) ** 0.5)
+    cycles = any(re.search(r'(?i)G(73|76|8[1-9])(?!\d)', line) for line in lines)  # holes are no part of the search
+    if found['tools'] or cycles or report['blocks']['left_alone_count']:
+        return ''
+    shop.notes.append('%s: %.4f mm of %.4f left' % (os.path.basename(program), worst, found['before']['max_mm']))
+    if worst > found['rest']['max_mm'] + SAME:
+        return '%.7f mm are left instead of %.7f' % (worst, found['rest']['max_mm'])
+    return ''
+
+
 def calls(shop, program):
     """The interpreter runs the original's calls itself; with them expanded, each is corrected where it runs."""
     shifted = product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN)
@@ -280,5 +324,5 @@ def plan_of(report):
 
 ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
        'field_positive': field_positive, 'field_negative': field_negative, 'field_turned': field_turned,
-       'masking': masking, 'limits': control_limits, 'shares': shares, 'calls': calls}
-G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'field_turned', 'limits', 'calls'}
+       'masking': masking, 'offsets': offsets, 'limits': control_limits, 'shares': shares, 'calls': calls}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'field_turned', 'limits', 'calls', 'offsets'}

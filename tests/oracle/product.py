@@ -118,6 +118,14 @@ class Product:
         report = json.loads(done.stdout) if done.returncode == 0 else {}
         return Run(done.returncode, text, report, done.stderr.decode('latin-1').strip())
 
+    def offsets(self, program, gantry, options=()):
+        """What predict --offsets finds, without forces, and what it said."""
+        done = self.call(['predict', program, '-m', self.machine(gantry), '--offsets', '--json', *options])
+        said = done.stderr.decode('latin-1').strip()
+        if done.returncode == 3 and NO_UNITS in said and '--units' not in options:
+            return self.offsets(program, gantry, (*options, '--units', 'mm'))
+        return (json.loads(done.stdout) if done.returncode == 0 else {}), said
+
     def machine(self, gantry):
         path = self.folder + '/machine.toml'
         with open(path, 'w') as out:

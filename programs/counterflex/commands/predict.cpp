@@ -1,4 +1,5 @@
 #include "commands/commands.hpp"
+#include "run/offsets.hpp"
 #include "run/run.hpp"
 #include "run/windows.hpp"
 
@@ -6,9 +7,17 @@ namespace counterflex::cli {
 namespace {
 
 /// Runs window by window, to the first failure.
-std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, Console& console) {
+std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, OffsetSearch* offsets,
+                                   Console& console) {
   Windows windows(run, console);
-  return predict_windows(windows.jobs(), run.options.threads, windows.events(tally, files));
+  WindowEvents events = windows.events(tally, files);
+  if (offsets != nullptr)
+    events.solved = [offsets, solved = events.solved](const Job& window,
+                                                      const std::vector<Waypoint>& waypoints) {
+      solved(window, waypoints);
+      offsets->add(window, waypoints);
+    };
+  return predict_windows(windows.jobs(), run.options.threads, events);
 }
 
 }  // namespace
@@ -17,10 +26,15 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
+  std::optional<OffsetSearch> offsets;
+  if (options.predict.offsets) offsets.emplace(*run);
   RunFiles files(paths, {.corrected = false, .bands = !run->uncertainties.empty()});
   RunTally tally = tally_for(options, *run);
-  const std::optional<Failure> failure = predict_all(*run, tally, files, console);
-  return deliver(options, *run, report_prediction(run->context(), tally, failure), tally, files, console);
+  const std::optional<Failure> failure =
+      predict_all(*run, tally, files, offsets ? &*offsets : nullptr, console);
+  RunReport report = report_prediction(run->context(), tally, failure);
+  if (offsets && !report.error_kind) report.best_offsets = offsets->find(options, report, console);
+  return deliver(options, *run, std::move(report), tally, files, console);
 }
 
 }  // namespace counterflex::cli

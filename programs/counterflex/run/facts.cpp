@@ -71,6 +71,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   if (options.number_pieces) facts.options.push_back({"number-pieces", true});
   if (options.max_points) facts.options.push_back({"max-points", static_cast<double>(*options.max_points)});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
+  if (options.predict.offsets) facts.options.push_back({"offsets", true});
   if (options.accept_partial) facts.options.push_back({"accept-partial", true});
   if (options.decimals >= 0) facts.options.push_back({"decimals", static_cast<double>(options.decimals)});
   for (OptionValue& value : reading_options(options, run)) facts.options.push_back(std::move(value));

@@ -171,6 +171,15 @@ std::optional<Pose> known_frame(const Machine& machine, const ProgramFrame& fram
   return place_frame(offset, frame).X_MW;
 }
 
+Pose pose_of_offset(const WorkFrame& frame, const ProgramFrame& in_program) {
+  return frame.X_MW * inverse(placed(in_program));
+}
+
+std::string offset_name(const Overview& program, const ProgramFrame& frame) {
+  if (!frame.work_offset.empty() || is_robot_dialect(program.dialect)) return frame.work_offset;
+  return power_on_offset;
+}
+
 void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
                        const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
@@ -182,9 +191,8 @@ void add_common_shifts(const Machine& machine, const RunModels& models, const Pa
     const std::string& selected = program.frames[i].work_offset;
     const auto [known, is_new] = shifts.try_emplace(selected);
     if (is_new)
-      known->second =
-          common_shift(models.model, models.tools, frames[i].X_MW * inverse(placed(program.frames[i])),
-                       places.of(selected), models.starts);
+      known->second = common_shift(models.model, models.tools, pose_of_offset(frames[i], program.frames[i]),
+                                   places.of(selected), models.starts);
     frames[i].common_shift = known->second;
   }
 }

@@ -32,6 +32,13 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
 /// machine file, or was touched off.
 std::optional<Pose> known_frame(const Machine& machine, const ProgramFrame& frame);
 
+/// The pose of the work offset of a frame that is at `frame`, as the control has it.
+Pose pose_of_offset(const WorkFrame& frame, const ProgramFrame& in_program);
+
+/// The name of the offset that a program selects, or that of the default of the control; empty: a robot
+/// program selects none.
+std::string offset_name(const Overview& program, const ProgramFrame& frame);
+
 /// The machine of a run with its tools, and where solutions start.
 struct RunModels {
   const Model& model;

@@ -119,8 +119,11 @@ void add_predict(CLI::App& app, Options& options) {
       add_command(app, options, "predict", Command::predict,
                   "Show the deviation of a program and its causes; write no program",
                   "  counterflex predict O1001.NC -m machine.toml --load-scale 0\n"
-                  "  counterflex predict O1001.NC -m machine.toml -f forces.csv --report O1001");
+                  "  counterflex predict O1001.NC -m machine.toml -f forces.csv --report O1001\n"
+                  "  counterflex predict O1001.NC -m machine.toml -f forces.csv --offsets");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
+  command.add_flag("--offsets", options.predict.offsets,
+                   "Find the work offsets, tool lengths and radii that leave the least deviation");
   add_run(command, options);
 }
 

@@ -58,6 +58,10 @@ struct NewOptions {
       radius;
 };
 
+struct PredictOptions {
+  bool offsets = false;  ///< find the best work offsets and tool data
+};
+
 struct VerifyOptions {
   std::string corrected;  ///< the corrected program
 };
@@ -178,6 +182,7 @@ struct Options {
 
   CheckOptions check;
   NewOptions create;
+  PredictOptions predict;
   VerifyOptions verify;
   CompareOptions compare;
   ForcesOptions forces_table;

@@ -110,7 +110,7 @@ Vector3 MinimaxRow::at(const Eigen::VectorXd& x) const {
   return v;
 }
 
-// Over a few rows, to which the largest ones of all are added until none is larger.
+// Over a few rows, to which the largest ones of all are added. It ends when all others are smaller.
 Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const Eigen::VectorXd& weight) {
   const Eigen::Index n = weight.size();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
