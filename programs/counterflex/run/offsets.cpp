@@ -62,7 +62,9 @@ OffsetSearch::OffsetSearch(Run& run) : run_(run), first_(freedom_) {
 std::optional<Failure> OffsetSearch::pass(const ConstantShift& shift, ShiftPlaces& found, RunTally* tally,
                                           Console& console) const {
   ProgramReader reader(run_.file.bytes, run_.program.file, run_.read);
-  JobWindows windows(run_.input(), reader);
+  RunInput input = run_.input();
+  if (tally == nullptr) input.uncertainties = nullptr;  // bands are of the last pass
+  JobWindows windows(input, reader);
   const auto read = [&](const Job& window) {
     const auto& segments = window.path.segments;
     console.solving(segments.empty() ? 0 : segments.front().line, run_.program.lines);

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/machine/parameters.hpp"
@@ -120,6 +121,17 @@ std::string thermal_phrase(const ThermalTable& thermal) {
                      thermal.temperatures.front(), thermal.temperatures.back());
 }
 
+std::string uncertainty_phrase(const Machine& machine) {
+  const Uncertainty& of = *machine.uncertainty;
+  std::string text = fmt::format("{} of {} parameters have a standard deviation; force {:.6g} %",
+                                 uncertain_parameters(machine).names.size(), parameters(machine).size(),
+                                 100 * of.force);
+  if (of.tool_length > 0) text += fmt::format(", tool length {:.6g} um", of.tool_length / um);
+  if (of.repeatability > 0) text += fmt::format(", repeatability {:.6g} um", of.repeatability / um);
+  if (of.temperature > 0) text += fmt::format(", temperature {:.6g} K", of.temperature);
+  return text + (of.covariance.empty() ? "" : "; covariance in " + without_controls(of.covariance));
+}
+
 std::string limits_phrase(const LoadLimits& limits) {
   std::string text;
   for (const LoadKind kind : load_kinds) {
@@ -170,6 +182,7 @@ void describe_settings(const Machine& machine, std::string& text) {
   if (is_unmeasured(machine)) line("stiffness", unmeasured_phrase(machine));
   if (machine.fixture) line("fixture", fixture_phrase(*machine.fixture));
   if (machine.thermal) line("thermal", thermal_phrase(*machine.thermal));
+  if (machine.uncertainty) line("uncertainty", uncertainty_phrase(machine));
   line("correction", fmt::format("at most {:.9g} mm", machine.max_correction / mm));
   describe_limits(machine, text);
   if (machine.work_is_machine_frame)

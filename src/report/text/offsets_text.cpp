@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include "report/text/report_text.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -26,9 +28,9 @@ std::vector<ChangeInWords> changes_in_words(const BestOffsets& best) {
 }
 
 std::string rest_in_words(const BestOffsets& best, double tolerance_mm) {
-  std::string text = fmt::format("leaves {} mm of {} (rms {} of {}), line {}", mm4(best.rest.max_mm),
-                                 mm4(best.before.max_mm), mm4(best.rest.rms_mm), mm4(best.before.rms_mm),
-                                 best.rest.max_line);
+  std::string text = fmt::format("leaves {}{} mm of {} (rms {} of {}), line {}", mm4(best.rest.max_mm),
+                                 band_text(best.rest), mm4(best.before.max_mm), mm4(best.rest.rms_mm),
+                                 mm4(best.before.rms_mm), best.rest.max_line);
   if (best.is_enough)
     return text +
            fmt::format("; within the tolerance of {} mm: no corrected program is needed", mm4(tolerance_mm));

@@ -312,6 +312,10 @@ std::string verdict_line(const RunReport& report, const Ink& ink) {
   return report.verdict == Verdict::partly ? ink.warning(text) : ink.bad(text);
 }
 
+std::string band_text(const DeviationStatistics& s) {
+  return s.bands ? " +- " + mm4(s.bands->at_max_mm) : "";
+}
+
 std::string others_text(const OtherMoves& moves) {
   std::string text;
   const auto add = [&](std::size_t count, const char* handling) {

@@ -16,4 +16,7 @@ std::string verdict_line(const RunReport& report, const Ink& ink);
 /// The handling of moves that are not corrected individually; empty without such moves.
 std::string others_text(const OtherMoves& moves);
 
+/// " +- 0.0120": the band of the largest deviation; empty without bands.
+std::string band_text(const DeviationStatistics& s);
+
 }  // namespace counterflex

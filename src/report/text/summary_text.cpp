@@ -44,11 +44,6 @@ std::string causes_text(const SourcesAtWorst& at) {
   return text;
 }
 
-/// " +- 0.0120": the band of the largest deviation.
-std::string band_text(const DeviationStatistics& s) {
-  return s.bands ? " +- " + mm4(s.bands->at_max_mm) : "";
-}
-
 std::string before_text(const RunReport& report) {
   if (!report.before) return "";
   std::string text = fmt::format("{} mm{}, line {}", mm4(report.before->max_mm), band_text(*report.before),
