@@ -7,6 +7,7 @@
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
 #include "compensation/windows/parallel.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
 namespace {
@@ -15,10 +16,6 @@ constexpr std::size_t most_load_stretches = LoadPlaces::most - 4;  // even, and 
 
 // Solvers for different processors agree to less: of values that differ by less the first is the largest.
 constexpr double indistinct_share = 1e-7;
-
-double force_of(const LoadPlace& place) {
-  return place.load.F.head<3>().norm();
-}
 
 bool is_larger(double value, double than) {
   return value > than * (1 + indistinct_share);
@@ -29,12 +26,14 @@ bool is_larger(double value, double than) {
 LoadPlace LoadPlaces::place_of(const Job& job, const Waypoint& w) const {
   const Segment& segment = job.path.segments[w.segment];
   const Vector3 target = original_command(job, segment.frame, w.p_MT) + w.correction.head<3>();
-  return {count_,
-          w,
-          target,
-          {w.wrench, job.forces.at_platform()},
-          &model_of(job, segment),
-          job.program.moves[segment.move].tool};
+  const Load load{w.wrench, job.forces.at_platform()};
+  const std::int32_t tool = job.program.moves[segment.move].tool;
+  return {count_, w, target, load, &model_of(job, segment), tool, segment.frame};
+}
+
+double LoadPlaces::value_of(const Job& job, const Waypoint& w) const {
+  if (kept_ == KeptPlace::largest_force) return w.wrench.head<3>().norm();
+  return share_of_tolerance(job.options, job.model.mechanism, w.R_MT, w.after);
 }
 
 void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
@@ -50,11 +49,15 @@ void LoadPlaces::add_to_stretch(const Job& job, const Waypoint& w) {
   if (stretches_.empty() || in_last_ == per_stretch_) {
     if (stretches_.size() == most_load_stretches) merge_neighbours();
     stretches_.push_back(place_of(job, w));
+    values_.push_back(value_of(job, w));
     in_last_ = 0;
   } else {
     LoadPlace& kept = stretches_.back();
-    const double weight = kept.at.weight + w.weight;
-    if (is_larger(w.wrench.head<3>().norm(), force_of(kept))) kept = place_of(job, w);
+    const double weight = kept.at.weight + w.weight, value = value_of(job, w);
+    if (is_larger(value, values_.back())) {
+      kept = place_of(job, w);
+      values_.back() = value;
+    }
     kept.at.weight = weight;
   }
   ++in_last_;
@@ -64,10 +67,13 @@ void LoadPlaces::merge_neighbours() {
   for (std::size_t i = 0; i < most_load_stretches / 2; ++i) {
     const LoadPlace &first = stretches_[2 * i], &second = stretches_[2 * i + 1];
     const double weight = first.at.weight + second.at.weight;
-    stretches_[i] = LoadPlace(is_larger(force_of(second), force_of(first)) ? second : first);
+    const bool later = is_larger(values_[2 * i + 1], values_[2 * i]);
+    stretches_[i] = LoadPlace(later ? second : first);
     stretches_[i].at.weight = weight;
+    values_[i] = values_[later ? 2 * i + 1 : 2 * i];
   }
   stretches_.resize(most_load_stretches / 2);
+  values_.resize(most_load_stretches / 2);
   per_stretch_ *= 2;
 }
 

@@ -24,16 +24,25 @@ struct LoadPlace {
   Vector3 target = Vector3::Zero();  ///< the written one, or the original where nothing was corrected; M (m)
   Load load;
   const Model* model = nullptr;  ///< with the tool in the spindle
-  long tool = 0;                 ///< its number; 0: none known
+  std::int32_t tool = 0;         ///< its number; 0: none known
+  std::size_t frame = 0;         ///< index into Program::frames
+};
+
+/// Which waypoint of a stretch `LoadPlaces` keeps.
+enum class KeptPlace {
+  largest_force,
+  largest_rest,  ///< the one whose deviation after uses up most of its tolerance (`share_of_tolerance`)
 };
 
 /// Takes the waypoints of a path in their order, those between the ends of pieces, too, and keeps a part of
-/// them: of each stretch of equally many the one with the largest force (the first of equal ones), and of all
-/// those with the largest force, moment and deviation before. Which are kept depends on the waypoints alone,
-/// not on where the path was cut into windows. Rapids and unsolved waypoints are ignored.
+/// them: of each stretch of equally many the one with the largest force or rest (the first of equal ones),
+/// and of all those with the largest force, moment and deviation before. Which are kept depends on the
+/// waypoints alone, not on where the path was cut into windows. Rapids and unsolved waypoints are ignored.
 class LoadPlaces {
  public:
   static constexpr std::size_t most = 1024;
+
+  explicit LoadPlaces(KeptPlace kept = KeptPlace::largest_force) : kept_(kept) {}
 
   /// The next ones, of a window of the path. The job's models outlive what is kept.
   void add(const Job& job, const std::vector<Waypoint>& waypoints);
@@ -50,12 +59,15 @@ class LoadPlaces {
     std::optional<LoadPlace> place{};
   };
 
+  double value_of(const Job& job, const Waypoint& w) const;
   void add_to_stretch(const Job& job, const Waypoint& w);
   void add_peaks(const Job& job, const Waypoint& w);
   LoadPlace place_of(const Job& job, const Waypoint& w) const;
   void merge_neighbours();
 
+  KeptPlace kept_;
   std::vector<LoadPlace> stretches_;
+  std::vector<double> values_;  ///< of the stretches
   std::size_t per_stretch_ = 1, in_last_ = 0, count_ = 0;
   Peak force_, moment_, before_;
 };

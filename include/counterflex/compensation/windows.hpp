@@ -46,6 +46,11 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 /// The controlled part of a waypoint's `after`: what the tolerance applies to (m).
 double position_miss(const Job& job, const Waypoint& w);
 
+/// The larger of the shares that a deviation (m, rad; axes of M) has in the tolerances of position, and of
+/// tilt and spin where the orientation `R_MT` is given.
+double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
+                          const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation);
+
 /// The failure of the first waypoint that misses the tolerance in a move that the plan corrects (not
 /// `exempt`).
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints);

@@ -103,11 +103,29 @@ std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, i
                   size / deg, job.options.max_turn / deg)};
 }
 
-double position_miss(const Job& job, const Waypoint& w) {
+namespace {
+
+double controlled_position(const Mechanism& mechanism, const Vector6& deviation) {
   Vector3 miss = Vector3::Zero();
-  for (Component c : job.model.mechanism.controlled)
-    if (c <= Component::z) miss[static_cast<int>(c)] = w.after[static_cast<int>(c)];
+  for (Component c : mechanism.controlled)
+    if (c <= Component::z) miss[static_cast<int>(c)] = deviation[static_cast<int>(c)];
   return miss.norm();
+}
+
+}  // namespace
+
+double position_miss(const Job& job, const Waypoint& w) {
+  return controlled_position(job.model.mechanism, w.after);
+}
+
+double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
+                          const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation) {
+  double share = controlled_position(mechanism, deviation) / options.tolerance;
+  if (!R_MT) return share;
+  const Vector3 turn = deviation.tail<3>(), axis = R_MT->col(2);
+  share = std::max(share, tilt(turn, axis).norm() / options.tilt_tolerance);
+  if (options.spin_tolerance) share = std::max(share, std::abs(turn.dot(axis)) / *options.spin_tolerance);
+  return share;
 }
 
 namespace {
