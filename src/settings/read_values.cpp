@@ -141,11 +141,12 @@ void read_offset(const toml::key& key, const toml::node& node, const Source& sou
   const std::string owner = fmt::format("[work.{}]", key.str());
   const toml::table& table = toml_file::as_table(node, owner, source);
   refuse_unquoted(key, table, source);
-  toml_file::check_keys(table, {"xyz_mm", "rpy_deg", "datum"}, owner, source);
+  toml_file::check_keys(table, {"xyz_mm", "rpy_deg", "datum", "offset_mm"}, owner, source);
   toml_file::required(table, "xyz_mm", owner, node, source);
   std::string value = vector_text(table, "xyz_mm", source);
   if (table.contains("rpy_deg")) value.append(",").append(vector_text(table, "rpy_deg", source));
   if (const toml::node* datum = table.get("datum")) value.append("/").append(datum_text(*datum, source));
+  if (table.contains("offset_mm")) value.append("/offset=").append(vector_text(table, "offset_mm", source));
   add_named(key, *name, value, source, setting);
 }
 

@@ -136,6 +136,8 @@ std::string toml_key(const std::string& name) {
 
 std::string datum_line(const std::string& datum) {
   const std::size_t equals = datum.find('=');
+  if (datum.starts_with("offset="))
+    return fmt::format("offset_mm = {}\n", three_numbers(at_commas(datum.substr(equals + 1)), 0));
   if (equals == std::string::npos) return fmt::format("datum = {}\n", toml_text(datum));
   return fmt::format("datum = {{ touched_at_mm = {} }}\n",
                      three_numbers(at_commas(datum.substr(equals + 1)), 0));
@@ -147,7 +149,12 @@ std::string offset_table(const std::string& name, const std::string& value) {
   const auto numbers = at_commas(value.substr(0, slash));
   std::string text = fmt::format("[work.{}]\nxyz_mm = {}\n", toml_key(known), three_numbers(numbers, 0));
   if (numbers.size() > 3) text += fmt::format("rpy_deg = {}\n", three_numbers(numbers, 3));
-  return slash < value.size() ? text + datum_line(value.substr(slash + 1)) : text;
+  for (std::size_t at = slash; at < value.size();) {
+    const std::size_t next = std::min(value.find('/', at + 1), value.size());
+    text += datum_line(value.substr(at + 1, next - at - 1));
+    at = next;
+  }
+  return text;
 }
 
 std::string length_table(const std::string& name, const std::string& value) {

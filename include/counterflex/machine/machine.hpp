@@ -216,6 +216,8 @@ struct Datum {
 struct WorkOffset {
   Pose X_MW;
   Datum datum;
+  /// The numbers of the offset on the control, X, Y, Z (m): where they are known, a guard compares them.
+  std::optional<Vector3> shown{};
 };
 
 /// How the control reads programs, where neither the program nor a flag defines it.

@@ -27,6 +27,7 @@ void override_work(const Options& options, Machine& machine) {
     if (machine.work_is_machine_frame) return machine.work.clear();
     WorkOffset& offset = machine.work[given.offset];
     offset.X_MW = given.place.X_MW;
+    offset.shown = given.place.shown;  // those of the machine file belong to its pose
     if (given.place.datum.stated()) offset.datum = given.place.datum;
   }
 }

@@ -36,18 +36,33 @@ std::string offset_name(std::string_view text, std::string_view option) {
   return *name;
 }
 
-/// "machine", or "touched=X,Y,Z" in program coordinates, mm.
-Datum datum_of(std::string_view name, std::string_view text) {
-  constexpr std::string_view touched = "touched=";
-  if (text == "machine") return {.is_machine = true};
-  if (!text.starts_with(touched))
-    throw InputError(ErrorKind::usage, {},
-                     fmt::format("{}: the datum is '{}', must be machine or touched=X,Y,Z", name, text));
-  const PoseText at = pose_of(fmt::format("{} touched", name), text.substr(touched.size()));
+/// "X,Y,Z" behind "touched=" or "offset=", in m.
+Vector3 lengths_of(std::string_view name, std::string_view text) {
+  const std::size_t equals = text.find('=');
+  const PoseText at = pose_of(fmt::format("{} {}", name, text.substr(0, equals)), text.substr(equals + 1));
   if (at.has_orientation)
     throw InputError(ErrorKind::usage, {},
                      fmt::format("{}: '{}' has 6 numbers, must be three lengths in mm", name, text));
-  return {.touched_at = at.X.p};
+  return at.X.p;
+}
+
+/// "machine", or "touched=X,Y,Z" in program coordinates, mm.
+Datum datum_of(std::string_view name, std::string_view text) {
+  if (text == "machine") return {.is_machine = true};
+  if (!text.starts_with("touched="))
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("{}: the datum is '{}', must be machine or touched=X,Y,Z", name, text));
+  return {.touched_at = lengths_of(name, text)};
+}
+
+/// "DATUM", "offset=X,Y,Z" or "DATUM/offset=X,Y,Z".
+void take_origin(std::string_view name, std::string_view text, WorkOffset& place) {
+  const std::size_t slash = text.find('/');
+  const std::string_view last = slash == std::string_view::npos ? text : text.substr(slash + 1);
+  const bool has_offset = last.starts_with("offset=");
+  if (has_offset) place.shown = lengths_of(name, last);
+  if (!has_offset || slash != std::string_view::npos)
+    place.datum = datum_of(name, has_offset ? text.substr(0, slash) : text);
 }
 
 }  // namespace
@@ -168,7 +183,7 @@ WorkText work_of(std::string_view text, std::string_view name) {
   const std::string_view place = text.substr(equals + 1);
   const std::size_t slash = place.find('/');
   WorkText work{offset, {pose_of(label, place.substr(0, slash)).X, {}}};
-  if (slash != std::string_view::npos) work.place.datum = datum_of(label, place.substr(slash + 1));
+  if (slash != std::string_view::npos) take_origin(label, place.substr(slash + 1), work.place);
   return work;
 }
 

@@ -53,8 +53,8 @@ struct CurveText {
 };
 CurveText curve_of(std::string_view name, std::string_view text);
 
-/// A value of --work: "G54=X,Y,Z[,RX,RY,RZ][/DATUM]" with DATUM "machine" or "touched=X,Y,Z", or only
-/// "machine".
+/// A value of --work: "G54=X,Y,Z[,RX,RY,RZ][/DATUM][/offset=X,Y,Z]" with DATUM "machine" or "touched=X,Y,Z",
+/// and the numbers of the offset on the control; or only "machine".
 struct WorkText {
   std::string offset;  ///< as in programs; empty: program coordinates are machine coordinates
   WorkOffset place;

@@ -144,8 +144,11 @@ void read_work(const toml::table& document, const Source& source, Machine& machi
     source.fail(*node, fmt::format("work must be \"machine\" or tables as [work.G54], not {}", seen(*node)));
   for (const auto& [key, entry] : *node->as_table()) {
     const std::string name = read_offset_name(key, source);
-    WorkOffset offset{read_transform(entry, fmt::format("[work.{}]", key.str()), {source}, {"datum"}), {}};
+    WorkOffset offset{
+        read_transform(entry, fmt::format("[work.{}]", key.str()), {source}, {"datum", "offset_mm"}), {}};
     if (const toml::node* datum = entry.as_table()->get("datum")) offset.datum = read_datum(*datum, source);
+    if (const toml::node* shown = entry.as_table()->get("offset_mm"))
+      offset.shown = as_vector3(*shown, "offset_mm", {source}) * mm;
     if (!machine.work.emplace(name, offset).second)
       source.fail(key, fmt::format("work offset {} is defined twice", name));
   }
