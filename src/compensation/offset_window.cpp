@@ -37,15 +37,16 @@ bool is_aligned(const Matrix3& R) {
 std::vector<Corner> corners_of(const OffsetQuestion& q, double half_width) {
   const bool aligned = std::all_of(q.frames.begin(), q.frames.end(),
                                    [](const WorkFrame& frame) { return is_aligned(frame.X_MW.R); });
-  // The angles of a frame add up to turns about its axes: three times each of them is more than that.
+  // The angles of a frame add up to turns about its axes: three times each of them is more than that. Each
+  // corner of the turns is solved at two opposite corners of the shift: the turns are small.
   const double turn = q.turns ? 3 * guarded_angle_deg * deg : 0;
   std::vector<Corner> corners;
   for (const bool in_work_axes : {false, true})
-    for (unsigned t = 0; t < (q.turns ? 8U : 1U); ++t)
+    for (const double turned : q.turns ? std::vector{-turn, turn} : std::vector{0.0})
       for (const double longer : {-half_width, half_width})
         for (unsigned s = 0; s < 8; ++s)
           if ((!in_work_axes || !aligned) && (q.tool || longer > 0))
-            corners.push_back({half_width * signs(s), in_work_axes, turn * signs(t), q.tool ? longer : 0});
+            corners.push_back({half_width * signs(s), in_work_axes, turned * signs(s), q.tool ? longer : 0});
   return corners;
 }
 

@@ -5,8 +5,10 @@
 #include <string_view>
 
 #include "program/dialect.hpp"
+#include "program/guard/guard_mark.hpp"
 #include "program/klartext/kept_words.hpp"
 #include "program/robot/apt/lex.hpp"
+#include "program/robot/fanuc/guard.hpp"
 #include "program/robot/fanuc/kept_words.hpp"
 #include "program/robot/kept_words.hpp"
 #include "program/robot/kuka/lex.hpp"
@@ -51,6 +53,15 @@ std::string declared_kept_words(const Program& program, Span within, const std::
 std::string line_kept_words(const Program& program, std::string_view line, std::string rest) {
   if (program.dialect != yaskawa_name || !is_jbi_counts(line)) return rest;
   return jbi_surplus(program.text, line);
+}
+
+bool is_line_of_guard(const Program& program, std::size_t begin) {
+  const std::string_view text = program.text;
+  if (program.dialect == tp_name) return is_tp_guard_line(text, begin);
+  std::string_view line = text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
+  if (program.dialect == klartext_name)  // its number changes
+    line.remove_prefix(std::min(line.find_first_not_of(" 0123456789"), line.size()));
+  return is_guard_line(line);
 }
 
 bool are_alike(const std::string& a, const std::string& b) {

@@ -229,7 +229,10 @@ void add_verdict(RunReport& report, const RunTally& tally) {
     report.verdict = Verdict::predicted;
   report.verdict_reason = reason_of(report);
   report.error_kind = error_of(report);
-  if (report.error_kind) report.facts.output.clear();
+  if (report.error_kind) {
+    report.facts.output.clear();
+    report.facts.guard.reset();
+  }
 }
 
 }  // namespace

@@ -226,6 +226,71 @@ def offsets(shop, program):
     return ''
 
 
+def guarded_lines(raw):
+    """As `plain_lines`, but the checks that counterflex wrote are left as they are."""
+    lines = plain.plain_lines(raw)
+    for number, line in enumerate(raw.decode('latin-1').split('\n')):
+        if re.match(r'o<counterflex_guard_|\(CF [0-9A-F]{8}\) \(abort, COUNTERFLEX GUARD', line):
+            lines[number] = line.rstrip('\r')
+    return lines
+
+
+def stops(bench, lines, unit):
+    """Whether a guard stops the program."""
+    try:
+        path.walk(bench, lines, unit)
+        return False
+    except path.Refused as error:
+        if 'COUNTERFLEX GUARD' in str(error):
+            return True
+        raise
+
+
+def moved(offsets, number, axis, by):
+    xyz = list(offsets[number])
+    xyz[axis] += by
+    return {**offsets, number: tuple(xyz)}
+
+
+def guard(shop, program):
+    """A guarded program moves as it does without a guard, also with the offset at the edge of the window. With the offset
+    or the tool length off by twice the window it stops."""
+    gantry = shop.gantry(program, squareness=(SQUARE, -SQUARE, SQUARE), offsets=OFFSETS, shown=True)
+    bare = shop.runs.compensate(program, gantry, LENGTHS, shop.options(program))
+    if bare.status != 0:
+        return refusal(shop, program, bare)
+    dialect = bare.report['options']['dialect']
+    if dialect != 'linuxcnc':
+        shop.notes.append('%s: not judged: %s' % (os.path.basename(program), dialect))
+        return ''
+    run = shop.runs.compensate(program, gantry, LENGTHS, (*shop.options(program), '--guard'))
+    if run.status != 0:
+        return refusal(shop, program, run)
+    guarded, unguarded = guarded_lines(run.text), plain.plain_lines(bare.text)
+    unit = 'G20' if facts.says_inches_first(unguarded) else 'G21'
+    calls_of = lambda steps: [(s.kind, s.start, s.end, s.arc, s.offset, s.feed) for s in steps]
+    try:
+        wanted = calls_of(path.walk(shop.bench(OFFSETS, LENGTHS), unguarded, unit))
+        if calls_of(path.walk(shop.bench(OFFSETS, LENGTHS), guarded, unit)) != wanted:
+            return 'the guard changes the motion'
+        written = run.report['guard']
+        number, window = int(written['work'][1:3]) - 53, written['window_mm']
+        for axis in range(3):
+            for sign in (-1, 1):
+                if stops(shop.bench(moved(OFFSETS, number, axis, 0.99 * sign * window), LENGTHS), guarded, unit):
+                    return 'it stops with the offset inside of the window'
+                if not stops(shop.bench(moved(OFFSETS, number, axis, 2 * sign * window), LENGTHS), guarded, unit):
+                    return 'it does not stop with the offset off by twice the window along axis %d' % axis
+        if written['tool_length_mm'] is not None:
+            other = {tool: length + 2 * window for tool, length in LENGTHS.items()}
+            if not stops(shop.bench(OFFSETS, other), guarded, unit):
+                return 'it does not stop with the tool length off by twice the window'
+    except path.Refused as error:
+        return 'LinuxCNC refuses it: %s' % error
+    shop.notes.append('%s: guarded within %g mm, %d steps' % (os.path.basename(program), window, len(wanted)))
+    return ''
+
+
 def calls(shop, program):
     """The interpreter runs the original's calls itself; with them expanded, each is corrected where it runs."""
     shifted = product.Gantry(shift=product.FRAME_SHIFT, offsets=AT_ORIGIN)
@@ -324,5 +389,5 @@ def plan_of(report):
 
 ALL = {'identity': identity, 'shift': shift, 'shift_skipped': shift_skipped, 'shift_offsets': shift_offsets,
        'field_positive': field_positive, 'field_negative': field_negative, 'field_turned': field_turned,
-       'masking': masking, 'offsets': offsets, 'limits': control_limits, 'shares': shares, 'calls': calls}
-G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'field_turned', 'limits', 'calls', 'offsets'}
+       'masking': masking, 'offsets': offsets, 'limits': control_limits, 'shares': shares, 'calls': calls, 'guard': guard}
+G_CODE_ONLY = {'shift', 'shift_skipped', 'shift_offsets', 'field_positive', 'field_negative', 'field_turned', 'limits', 'calls', 'guard', 'offsets'}

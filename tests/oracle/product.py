@@ -30,11 +30,13 @@ class Gantry:
     squareness: tuple = (0.0, 0.0, 0.0)
     offsets: dict = field(default_factory=dict)
     program: str = ''  # lines of the table [program]
+    shown: bool = False  # the control shows the offsets as they are in the machine
 
     def toml(self):
         yaw, roll, pitch = (math.degrees(a) for a in self.squareness)
         z, x, y = (math.degrees(a) for a in self.turned)
-        work = ''.join('[work."%s"]\nxyz_mm = [%r, %r, %r]\n' % (offset_name(n), *xyz) for n, xyz in self.offsets.items())
+        work = ''.join('[work."%s"]\nxyz_mm = [%r, %r, %r]\n' % (offset_name(n), *xyz) +
+                       ('offset_mm = [%r, %r, %r]\n' % xyz if self.shown else '') for n, xyz in self.offsets.items())
         return ('format = "counterflex-machine 1"\nname = "gantry"\ncontrolled = ["x", "y", "z"]\n' +
                 '[program]\n' + self.program + '\n' + work +
                 '[[chain]]\nname = "serial"\n'

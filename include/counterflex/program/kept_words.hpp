@@ -25,6 +25,9 @@ std::string declared_kept_words(const Program& program, Span within, const std::
 /// job of Yaskawa become their surplus over the positions in the text.
 std::string line_kept_words(const Program& program, std::string_view line, std::string rest);
 
+/// Whether the line at byte `begin` of the program's text is one of a guard, with its right mark.
+bool is_line_of_guard(const Program& program, std::size_t begin);
+
 /// Whether the kept words of two moves are of one statement. A line may be a chord of an arc.
 bool are_alike(const std::string& a, const std::string& b);
 

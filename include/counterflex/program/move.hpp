@@ -256,7 +256,10 @@ struct Move {
   bool block_delete : 1 = false;  ///< a '/' block: states that it sets are unknown afterwards
   /// It begins at a target in joint values, which is not corrected.
   bool starts_uncorrected : 1 = false;
-  bool exact_stop : 1 = false;  ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
+  bool has_tool_length : 1 = false;  ///< a tool length acts (G43, the tool of a TOOL CALL)
+  bool tool_in_spindle : 1 = false;  ///< the program has changed to `tool`
+  bool tool_is_chosen : 1 = false;   ///< `tool` is the last T of the program
+  bool exact_stop : 1 = false;       ///< the control stops at the end (G9, G61 of Fanuc, G61.1 of LinuxCNC)
   /// Points may be inserted: a feed move without exact stop and without a word that acts at its end.
   bool may_split : 1 = false;
   /// A feed move may be inserted before it: start and feed are known, no exact stop.

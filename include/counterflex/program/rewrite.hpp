@@ -10,6 +10,7 @@
 #include <vector>
 
 #include "counterflex/geometry/curve.hpp"
+#include "counterflex/program/guard.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -43,7 +44,8 @@ struct WriteOptions {
   /// Numbers of the program: the pieces of a block Nn after the first become Nn+1, Nn+2 ... if these are
   /// free. Null: they have no N.
   const BlockNumbers* number_pieces = nullptr;
-  std::size_t most_points = 0;  ///< of a robot program; 0: any number
+  std::size_t most_points = 0;   ///< of a robot program; 0: any number
+  std::optional<Guard> guard{};  ///< checks before the first cut (`first_cut`)
 };
 
 /// A point on the path of a move. The tool reaches it on a line, or on an arc about a centre in the move's

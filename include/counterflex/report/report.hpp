@@ -32,6 +32,13 @@ struct OptionValue {
   std::variant<bool, double, std::string> value;
 };
 
+/// The checks before the first cut of the written program.
+struct WrittenGuard {
+  Guard guard;
+  int line = 0;            ///< of the original: the block before which they are
+  std::size_t places = 0;  ///< at which the corners of the window were solved
+};
+
 /// What only the caller of a run knows. Inputs and options keep their order in the report.
 struct RunFacts {
   std::string version;  ///< of the tool
@@ -44,6 +51,7 @@ struct RunFacts {
   double min_block_ms = 2;      ///< what takes less time is a short block
   /// The waypoints' geometry, load, superposition, air, higher and lower were solved.
   bool attribution = false;
+  std::optional<WrittenGuard> guard{};
 };
 
 /// Where a line's largest deviation is.

@@ -7,6 +7,7 @@
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/program/size_limit.hpp"
+#include "run/guard.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -112,6 +113,7 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
   prepare_writing(options, *run);
+  if (options.guard) prepare_guard(*run, console);
   RunFiles files(paths, {.attribution = run->facts.attribution, .bands = !run->uncertainties.empty()},
                  options.hash_outputs);
   if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();

@@ -70,6 +70,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", force_rule_text(rule)});
   if (options.number_pieces) facts.options.push_back({"number-pieces", true});
   if (options.max_points) facts.options.push_back({"max-points", static_cast<double>(*options.max_points)});
+  if (options.guard) facts.options.push_back({"guard", true});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
   if (options.predict.offsets) facts.options.push_back({"offsets", true});
   if (options.accept_partial) facts.options.push_back({"accept-partial", true});

@@ -110,7 +110,7 @@ void add_compensate(CLI::App& app, Options& options) {
                   "  counterflex compensate O1001.NC -m machine.toml -f forces.csv -o corrected/\n"
                   "  counterflex compensate O1001.NC -m machine.toml --force=-120,0,-40");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
-  add_settings(command, options, {"output", "number-pieces", "max-points"});
+  add_settings(command, options, {"output", "number-pieces", "max-points", "guard"});
   add_run(command, options);
 }
 
@@ -472,7 +472,7 @@ void add_watch(CLI::App& app, Options& options) {
   add_setting(
       command, options, "output",
       "The folder of the corrected programs, or a pattern (default: NAME.comp.EXT beside each program)");
-  add_settings(command, options, {"number-pieces", "max-points"});
+  add_settings(command, options, {"number-pieces", "max-points", "guard"});
   add_run(command, options);
 }
 

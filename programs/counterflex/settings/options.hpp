@@ -171,6 +171,7 @@ struct Options {
   int decimals = -1;                     ///< -1: as in each word
   bool number_pieces = false;
   std::optional<std::size_t> max_points;  ///< of a robot program
+  bool guard = false;                     ///< write checks before the first cut
   int threads = 1;
   double min_block_ms = 2;
 

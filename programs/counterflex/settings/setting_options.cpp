@@ -132,11 +132,11 @@ const std::array option_table{
         "A data list with targets of a KUKA program; NAME.dat beside NAME.src is read without this. "
         "May be repeated",
         "", true, [](Text, Text text, Options& options) { options.data_lists.push_back(text); }},
-    SettingOption{
-        "work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM]", group::common,
-        "A work offset in the machine frame, mm and degrees. DATUM is how it was found: machine or "
-        "touched=X,Y,Z. May be repeated. --work machine: program coordinates are machine coordinates",
-        "", true, take_work},
+    SettingOption{"work", "--work", "G54=X,Y,Z[,RX,RY,RZ][/DATUM][/offset=X,Y,Z]", group::common,
+                  "A work offset in the machine frame, mm and degrees. DATUM is how it was found: machine or "
+                  "touched=X,Y,Z. offset gives the numbers on the control, for --guard. May be repeated. "
+                  "--work machine: program coordinates are machine coordinates",
+                  "", true, take_work},
     SettingOption{"tool-table", "--tool-table", "FILE", group::reading,
                   "Tool lengths in mm, in LinuxCNC's format", "", false,
                   [](Text, Text text, Options& options) { options.tool_table = text; }},
@@ -200,6 +200,10 @@ const std::array option_table{
         "", false,
         [](Text name, Text text,
            Options& options) { options.max_points = integer_of(name, text, 1, 1'000'000'000); }},
+    SettingOption{
+        "guard", "--guard", "", group::correction,
+        "Write checks before the first cut: work offset, tool and units must be those of the correction",
+        "false", false, [](Text name, Text text, Options& options) { options.guard = truth_of(name, text); }},
     SettingOption{
         "threads", "--threads", "N", group::correction,
         "Threads; the output does not depend on it (default: all processors)", "", false,

@@ -167,6 +167,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
     if (siemens && calls_modal_cycle(line)) continue;
+    if (is_line_of_guard(window, line_begin)) continue;
     const std::size_t first_count = next_count;
     std::string counted = without(window.counts, window.text, line, line_begin, next_count);
     // A target of moves may have lines of its own.

@@ -19,9 +19,9 @@ struct OtherLine {
 
 bool are_equal(const OtherLine& a, const OtherLine& b);
 
-/// The lines without a move of a program that is read in windows, the header and modal drilling cycles of a
-/// Sinumerik aside. Of statements that set the surface of Klartext's drilling cycles, and differ in that
-/// alone, the first one counts: the others are judged by their holes. An inserted block is beside the
+/// The lines without a move of a program that is read in windows, the header, guards and modal drilling
+/// cycles of a Sinumerik aside. Of statements that set the surface of Klartext's drilling cycles, and differ
+/// in that alone, the first one counts: the others are judged by their holes. An inserted block is beside the
 /// block that it belongs to: both have the same number of such lines before them.
 class OtherLines {
  public:

@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "counterflex/files/text.hpp"
+#include "program/guard/guard_mark.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -257,6 +258,8 @@ bool next_klartext_block(std::string_view text, KlartextBlock& block) {
     if (!continues) break;
     begin = block.line_end.end;
   }
+  if (!block.parts.empty() && is_guard_line(part(text, {block.parts[0].begin, block.span.end})))
+    block.parts.clear(), block.comments.clear();  // checks that counterflex wrote move nothing
   if (!block.parts.empty())
     for (std::size_t at = block.parts[0].begin; at < block.parts[0].end && klartext_letter(text[at]); ++at)
       block.head += klartext_upper(text[at]);

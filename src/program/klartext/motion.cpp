@@ -242,6 +242,7 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
     move.block_number = number;
   }
   move.tool = as_tool(state.tool);
+  move.has_tool_length = move.tool_in_spindle = move.tool_is_chosen = state.tool > 0;
   move.operation = r.operation.index_in(r.program, move.motion, move.tool);
   move.may_insert_words = false;
   move.force = state.force;

@@ -4,6 +4,7 @@
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
+#include "program/guard/guard_mark.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -51,6 +52,10 @@ bool next_robot_line(std::string_view text, std::string_view comment_mark, Robot
   const std::size_t end = newline > begin && text[newline - 1] == '\r' ? newline - 1 : newline;
   line.span = {begin, end};
   line.line_end = {end, std::min(newline + 1, text.size())};
+  if (is_guard_line(part(text, line.span))) {  // checks that counterflex wrote move nothing
+    line.code = line.comment = {end, end};
+    return true;
+  }
   const std::size_t first = begin == 0 ? std::min(byte_order_mark(text), end) : begin;
   const std::size_t mark = comment_in(text, comment_mark, first, end);
   line.code = without_blanks(text, {first, mark});

@@ -5,6 +5,7 @@
 #include <span>
 
 #include "program/dialect.hpp"
+#include "program/guard/guard_text.hpp"
 #include "program/robot/spacing.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
@@ -227,6 +228,11 @@ Rewritten RobotWriter::write(const Program& window, const std::vector<MoveEdit>&
   Output o{window};
   if (!begun_) add_header(o);
   begun_ = true;
+  if (const Move* cut = options_.guard && !guarded_ ? first_cut(window) : nullptr; cut != nullptr) {
+    const std::size_t at = cut->block.begin;
+    o.changes.push_back({{at, at}, guard_text(window.dialect, *options_.guard, line_end_)});
+    guarded_ = true;
+  }
   std::size_t next = 0;
   const auto count = [&](std::size_t inserted) {
     count_points(window.moves[next], inserted, options_.most_points, points_);

@@ -80,7 +80,7 @@ class RobotWriter : public ProgramWriter {
   std::string line_end_;
   TextPosition position_{};  ///< in the written text
   PointCount points_{};
-  bool begun_ = false;
+  bool begun_ = false, guarded_ = false;
 };
 
 /// The bytes `within` of `text` with `changes`, which are inside of them and are sorted here.

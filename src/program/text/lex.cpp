@@ -7,6 +7,7 @@
 #include <cmath>
 
 #include "counterflex/files/text.hpp"
+#include "program/guard/guard_mark.hpp"
 #include "program/siemens/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -299,6 +300,7 @@ void lex(std::string_view text, const std::string& file, const Dialect& dialect,
   block.flow_keyword = block.flow_name = {};
   block.statement = Statement::none;
   block.statement_is_bare = block.has_own_mode = false;
+  if (is_guard_line(part(text, block.span))) return;  // checks that counterflex wrote move nothing
   // The UTF-8 byte order mark is before the first block.
   if (block.text_line == 1 && block.span.begin == 0) block.span.begin += byte_order_mark(text);
   Scanner s{block.span.end, text, file, dialect, block, block.span.begin};

@@ -3,6 +3,7 @@
 #include <cassert>
 
 #include "program/expand/expand.hpp"
+#include "program/guard/guard_text.hpp"
 #include "program/text/scanner.hpp"
 #include "program/write/block.hpp"
 #include "program/write/plain.hpp"
@@ -65,6 +66,8 @@ struct Writing {
   const ProgramStyle& style;
   TextState& state;
   const PlainRewriting common;
+  const Guard* guard = nullptr;  ///< to be written in this window
+  std::size_t guarded = 0;       ///< the move before which it is written
   std::size_t copied = 0;
   Rewritten out{};
 };
@@ -91,6 +94,10 @@ void copy_until(std::size_t end, Writing& w) {
 /// The next move to write, and the position in the text before it.
 const Move& come_to(std::size_t index, Writing& w) {
   const Move& move = w.program.moves[index];
+  if (w.guard != nullptr && index == w.guarded) {
+    copy_until(move.block.begin, w);
+    w.out.text += guard_text(w.program.dialect, *w.guard, w.style.line_end);
+  }
   const Move* last = move_before(w.program, index);
   if (last != nullptr && last->end_mm != move.start_mm)
     w.state.position = text_position_between(*last, move, w.state.position);
@@ -141,6 +148,11 @@ Rewritten GcodeWriter::write(const Program& window, const std::vector<MoveEdit>&
   w.out.blocks_of_edit.reserve(edits.size());
   if (!begun_) begin(options_, w);
   begun_ = true;
+  if (const Move* cut = options_.guard && !guarded_ ? first_cut(window) : nullptr; cut != nullptr) {
+    w.guard = &*options_.guard;
+    w.guarded = static_cast<std::size_t>(cut - window.moves.data());
+    guarded_ = true;
+  }
   std::size_t next = 0;
   for (const MoveEdit& edit : edits) {
     assert(edit.move >= next && edit.move < window.moves.size());

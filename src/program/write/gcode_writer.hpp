@@ -17,7 +17,7 @@ class GcodeWriter final : public ProgramWriter {
   WriteOptions options_;
   ProgramStyle style_;
   TextState text_;
-  bool begun_ = false;
+  bool begun_ = false, guarded_ = false;
 };
 
 }  // namespace counterflex

@@ -435,6 +435,22 @@ std::string to_json(const SanityChecks& checks) {
   return dump(sanity_json(checks));
 }
 
+namespace {
+
+Json guard_json(const WrittenGuard& written) {
+  const Guard& guard = written.guard;
+  const Vector3& shown = guard.active.shown_mm;
+  return {{"line", written.line},
+          {"work", guard.active.name},
+          {"offset_mm", {shown.x(), shown.y(), shown.z()}},
+          {"window_mm", guard.window_mm},
+          {"tool", guard.tool > 0 ? Json(guard.tool) : Json(nullptr)},
+          {"tool_length_mm", guard.length_mm ? Json(*guard.length_mm) : Json(nullptr)},
+          {"places", written.places}};
+}
+
+}  // namespace
+
 std::string failed_json(Command command, std::string_view version, const InputError& error, int exit_status) {
   const Location& where = error.where();
   return dump({{"schema", report_schema},
@@ -476,6 +492,7 @@ std::string to_json(const RunReport& report) {
                    {"worst", worst_json(report)},
                    {"operations", operations_json(report.operations)},
                    {"units", units_json(report.units)}};
+  if (report.facts.guard) document["guard"] = guard_json(*report.facts.guard);
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   if (report.best_offsets) document["offsets"] = best_offsets_json(*report.best_offsets);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);

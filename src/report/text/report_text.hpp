@@ -19,4 +19,7 @@ std::string others_text(const OtherMoves& moves);
 /// " +- 0.0120": the band of the largest deviation; empty without bands.
 std::string band_text(const DeviationStatistics& s);
 
+/// What the guard of the corrected program compares.
+std::string guard_words(const WrittenGuard& written);
+
 }  // namespace counterflex

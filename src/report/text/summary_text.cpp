@@ -155,6 +155,10 @@ std::string offsets_lines(const RunReport& report) {
   return text;
 }
 
+std::string guard_line(const RunReport& report) {
+  return report.facts.guard ? item("guard", guard_words(*report.facts.guard)) : "";
+}
+
 std::string files_line(const RunReport& report, const std::vector<std::string>& files) {
   const bool no_program = report.command == Command::compensate && report.error_kind;
   std::string text = no_program ? "no corrected program" : "";
@@ -177,7 +181,7 @@ std::string summary_text(const RunReport& report, const std::vector<std::string>
   const Ink ink{colour};
   return verdict_line(report, ink) + headline(report, ink) + before_text(report) + after_text(report) +
          uncertainty_line(report) + offsets_lines(report) + force_line(report) + moves_line(report) +
-         sanity_line(report, ink) + files_line(report, files) + more_line(report);
+         guard_line(report) + sanity_line(report, ink) + files_line(report, files) + more_line(report);
 }
 
 }  // namespace counterflex

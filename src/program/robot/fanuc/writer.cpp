@@ -144,7 +144,7 @@ void FanucWriter::finish_changes(const Program& program, const std::vector<MoveE
 
 Rewritten FanucWriter::write(const Program& window, const std::vector<MoveEdit>& edits) {
   Rewritten out = RobotWriter::write(window, edits);
-  const bool inserted = out.inserted_blocks > 0 || !options().header.empty();
+  const bool inserted = out.inserted_blocks > 0 || !options().header.empty() || options().guard;
   if (inserted && file_.numbered)
     out.text = with_numbered_lines(std::move(out.text), file_.line_count.has_value());
   const std::size_t before = static_cast<std::size_t>(largest_);

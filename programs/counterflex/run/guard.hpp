@@ -1,0 +1,16 @@
+#pragma once
+/// The checks of --guard.
+#include "process/console.hpp"
+#include "run/run.hpp"
+
+namespace counterflex::cli {
+
+/// Finds the first cut of the program and the window within which the corrected program holds, and sets the
+/// guard of the run: for this the program is compensated once without being written. Sets no guard if the
+/// compensation fails; it will fail again. Throws `InputError`: ErrorKind::usage if the control has no
+/// guards, ErrorKind::program_text if nothing is cut or the program sets its own offset,
+/// ErrorKind::machine_or_force if the numbers of the work offset on the control are not known,
+/// ErrorKind::not_compensated if not even the smallest window holds.
+void prepare_guard(Run& run, Console& console);
+
+}  // namespace counterflex::cli
