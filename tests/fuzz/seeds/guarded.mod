@@ -1,0 +1,22 @@
+MODULE Line
+! COUNTERFLEX 1 PROGRAM B851B6C20B4200CB
+PROC main()
+MoveJ [[-0.179,40.103,51.807],[0.9999998,-0.0003113,-0.0005256,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,fine,spindle\WObj:=table;
+! COUNTERFLEX 1 GUARD: CORRECTED FOR table AT X1750 Y0 Z600 MM, HOLDS WITHIN 1.5 MM
+IF Distance(PoseVect(table.uframe,table.oframe.trans),[1750,0,600])>1.5 THEN ! CF 966696E7
+TPWrite "GUARD: table POSITION"; ! CF 14797D88
+EXIT; ! CF E3BBC9F7
+ENDIF ! CF BA8F9E6A
+IF Distance(PoseVect(table.uframe,PoseVect(table.oframe,[1000,0,0]))-PoseVect(table.uframe,table.oframe.trans),[866.025404,500,0])>0.035 THEN ! CF B4772BC4
+TPWrite "GUARD: table ORIENTATION"; ! CF 973FF78E
+EXIT; ! CF E3BBC9F7
+ENDIF ! CF BA8F9E6A
+IF Distance(PoseVect(table.uframe,PoseVect(table.oframe,[0,1000,0]))-PoseVect(table.uframe,table.oframe.trans),[-500,866.025404,0])>0.035 THEN ! CF 80564F22
+TPWrite "GUARD: table ORIENTATION"; ! CF 973FF78E
+EXIT; ! CF E3BBC9F7
+ENDIF ! CF BA8F9E6A
+MoveL [[-0.145,40.344,49.802],[0.9999999,-0.0002014,-0.0005057,0.0000222],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,spindle\WObj:=table;
+MoveL [[-0.099,40.311,1.798],[0.9999999,-0.0002057,-0.000501,0.0000215],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,spindle\WObj:=table;
+MoveL [[99.912,90.325,1.888],[0.9999998,-0.0001877,-0.0005204,0.0000229],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v20,z1,spindle\WObj:=table;
+ENDPROC
+ENDMODULE
