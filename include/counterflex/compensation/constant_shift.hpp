@@ -114,7 +114,7 @@ ConstantShift shift_of(const ShiftFreedom& freedom, const BestShift& best);
 /// each offset. The smallest change of several equally good ones.
 ///
 /// Minimises over a bounded set of places, each solved with the shift in effect, and adds those that a pass
-/// over the whole program finds to be larger, until none is larger by more than 0.01 µm: at most twelve
+/// over the whole program finds to be larger, until no one exceeds it by more than 0.01 µm: at most twelve
 /// passes. `first`: of the program without a shift. `threads` changes nothing.
 BestShift best_shift(const ShiftFreedom& freedom, const ShiftPlaces& first, const ShiftPass& pass,
                      int threads, const StartTables* starts = nullptr);

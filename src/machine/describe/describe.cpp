@@ -123,9 +123,9 @@ std::string thermal_phrase(const ThermalTable& thermal) {
 
 std::string uncertainty_phrase(const Machine& machine) {
   const Uncertainty& of = *machine.uncertainty;
-  std::string text = fmt::format("{} of {} parameters have a standard deviation; force {:.6g} %",
-                                 uncertain_parameters(machine).names.size(), parameters(machine).size(),
-                                 100 * of.force);
+  std::string text =
+      fmt::format("{} of {} parameters have a standard deviation; force {:.6g} %",
+                  uncertain_parameters(machine).names.size(), parameters(machine).size(), 100 * of.force);
   if (of.tool_length > 0) text += fmt::format(", tool length {:.6g} um", of.tool_length / um);
   if (of.repeatability > 0) text += fmt::format(", repeatability {:.6g} um", of.repeatability / um);
   if (of.temperature > 0) text += fmt::format(", temperature {:.6g} K", of.temperature);

@@ -36,7 +36,7 @@ TEST_CASE("moves beside a contour know the side of the cutter, those to it, from
   };
   constexpr auto none = CutterSide::none, left = CutterSide::left, right = CutterSide::right;
   using Sides = std::vector<CutterSide>;
-  CHECK(sides_of("X2\nG1 Z0\nG41 D1 X3\nY4\nG3 Y2 J-1\nZ-1\nX1\nG40 X2\nX5\n") ==
+  CHECK(sides_of("X2\nG1 Z0\nG41 D1 X3\nY4\nG3 Y2 J-1\nG1 Z-1\nX1\nG40 X2\nX5\n") ==
         Sides{none, none, none, none, left, left, none, left, none, none});
   CHECK(sides_of("G42 D1\nG1 X3\nY4\nG40\nX5\n") == Sides{none, none, right, none});
   CHECK(sides_of("G18\nG41 D1 G1 X3\nX4\nG40 X2\n") == Sides{none, none, none, none});
