@@ -260,17 +260,29 @@ def guard(shop, program):
     if bare.status != 0:
         return refusal(shop, program, bare)
     dialect = bare.report['options']['dialect']
+    if bare.report['verdict'] == 'NOTHING CORRECTED':
+        shop.notes.append('%s: nothing to guard' % os.path.basename(program))
+        return ''
     if dialect != 'linuxcnc':
         shop.notes.append('%s: not judged: %s' % (os.path.basename(program), dialect))
         return ''
-    run = shop.runs.compensate(program, gantry, LENGTHS, (*shop.options(program), '--guard'))
-    if run.status != 0:
-        return refusal(shop, program, run)
-    guarded, unguarded = guarded_lines(run.text), plain.plain_lines(bare.text)
+    unguarded = plain.plain_lines(bare.text)
     unit = 'G20' if facts.says_inches_first(unguarded) else 'G21'
     calls_of = lambda steps: [(s.kind, s.start, s.end, s.arc, s.offset, s.feed) for s in steps]
     try:
         wanted = calls_of(path.walk(shop.bench(OFFSETS, LENGTHS), unguarded, unit))
+    except path.Refused as error:
+        shop.notes.append('%s: LinuxCNC does not read it: %s' % (os.path.basename(program), error))
+        return ''
+    run = shop.runs.compensate(program, gantry, LENGTHS, (*shop.options(program), '--guard'))
+    if run.refused_with_place(os.path.basename(program)):  # it may set the offset itself
+        shop.notes.append('%s: refused: %s' % (os.path.basename(program), run.said.splitlines()[-1]))
+        shop.refused.add(program)
+        return ''
+    if run.status != 0:
+        return 'exit %d: %s' % (run.status, run.said[-300:])
+    guarded = guarded_lines(run.text)
+    try:
         if calls_of(path.walk(shop.bench(OFFSETS, LENGTHS), guarded, unit)) != wanted:
             return 'the guard changes the motion'
         written = run.report['guard']
