@@ -18,7 +18,9 @@
   function deviationCard(key, label, s, place) {
     const {units} = place.context;
     const note = [lineNote(place, s.max_line, `${key}_mm`), `, 95 % below ${units.format(s.p95_mm)}`];
-    return card(key, label, units.format(s.max_mm), note);
+    const band = s.band ? ` \u00b1 ${units.format(s.band.at_max_mm)}` : '';
+    if (band) note.push('; \u00b1 is its band, k = 2');
+    return card(key, label, (band ? units.number(s.max_mm) : units.format(s.max_mm)) + band, note);
   }
 
   function correctedCard(report) {
