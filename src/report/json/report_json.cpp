@@ -5,6 +5,7 @@
 #include "counterflex/report/formats.hpp"
 #include "report/json/json_numbers.hpp"
 #include "report/json/loads_json.hpp"
+#include "report/json/summary_json.hpp"
 #include "report/json/uncertainty_json.hpp"
 #include "report/names.hpp"
 
@@ -13,29 +14,6 @@ namespace counterflex {
 namespace {
 
 constexpr int digits = 7;  // 1e-7 mm, 1e-7 deg
-
-Json statistics_json(const DeviationStatistics& s) {
-  Json json = {{"max_mm", number(s.max_mm, digits)},
-               {"rms_mm", number(s.rms_mm, digits)},
-               {"mean_mm", number(s.mean_mm, digits)},
-               {"p95_mm", number(s.p95_mm, digits)},
-               {"max_line", s.max_line},
-               {"max_axis_mm", numbers(s.max_axis_mm, digits)},
-               {"max_rotation_deg", number(s.max_rotation_deg, digits)},
-               {"max_along_mm", number(s.max_along_mm, digits)},
-               {"max_across_mm", number(s.max_across_mm, digits)},
-               {"max_tool_axis_mm", number(s.max_tool_axis_mm, digits)}};
-  if (s.bands) json["band"] = bands_json(*s.bands);
-  return json;
-}
-
-Json optional_number(const std::optional<double>& value) {
-  return value ? number(*value, digits) : Json(nullptr);
-}
-
-Json optional_statistics(const std::optional<DeviationStatistics>& s) {
-  return s ? statistics_json(*s) : Json(nullptr);
-}
 
 Json inputs_json(const std::vector<InputFile>& inputs) {
   Json result = Json::object();
@@ -54,129 +32,6 @@ Json options_json(const std::vector<OptionValue>& options) {
   for (const OptionValue& option : options)
     std::visit([&](const auto& value) { add(option.name, value); }, option.value);
   return result;
-}
-
-Json largest_json(const std::optional<Largest>& largest) {
-  if (!largest) return nullptr;
-  return {{"max_mm", number(largest->mm, digits)}, {"line", largest->line}};
-}
-
-/// A cause that acts nowhere is null; without a fixture there is no entry for it.
-Json sources_at_json(const SourcesAtWorst& at, bool weights, bool preloads) {
-  Json json = {{"line", at.line},
-               {"place_mm", numbers(at.place_mm, digits)},
-               {"geometry_mm", numbers(at.geometry_mm, digits)},
-               {"load_mm", numbers(at.load_mm, digits)},
-               {"gravity_mm", weights ? numbers(at.gravity_mm, digits) : Json(nullptr)},
-               {"preloads_mm", preloads ? numbers(at.preloads_mm, digits) : Json(nullptr)},
-               {"superposition_mm", numbers(at.superposition_mm, digits)},
-               {"before_mm", numbers(at.before_mm, digits)}};
-  if (!at.fixture_mm.isZero(0)) json["fixture_mm"] = numbers(at.fixture_mm, digits);
-  return json;
-}
-
-Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
-  if (!worst) return nullptr;
-  return sources_at_json(*worst, sources.gravity.has_value(), sources.preloads.has_value());
-}
-
-Json sources_json(const RunReport& report) {
-  const std::optional<Sources>& sources = report.sources;
-  if (!sources) return nullptr;
-  Json json = {{"geometry", statistics_json(sources->geometry)},
-               {"load", statistics_json(sources->load)},
-               {"gravity", optional_statistics(sources->gravity)},
-               {"superposition", statistics_json(sources->superposition)},
-               {"preloads", optional_statistics(sources->preloads)},
-               {"at_worst", at_worst_json(*sources, report.at_worst)}};
-  if (sources->fixture) json["fixture"] = statistics_json(*sources->fixture);
-  return json;
-}
-
-/// Null if part of the path is unknown: its largest value would be misleading.
-Json other_force_json(const UnderOtherForce& other) {
-  return other.unsolved > 0 ? Json(nullptr) : statistics_json(other.deviation);
-}
-
-Json sensitivity_json(const std::optional<Sensitivity>& sensitivity) {
-  if (!sensitivity) return nullptr;
-  return {{"force_plus_30", other_force_json(sensitivity->higher)},
-          {"force_minus_30", other_force_json(sensitivity->lower)},
-          {"without_force", statistics_json(sensitivity->without)}};
-}
-
-Json common_shift_json(const std::optional<CommonShift>& shift) {
-  if (!shift) return nullptr;
-  Json offsets = Json::array();
-  for (const CommonShift::OfOffset& offset : shift->offsets)
-    offsets.push_back({{"work", offset.work.empty() ? Json(nullptr) : Json(offset.work)},
-                       {"shift_mm", numbers(offset.shift_mm, digits)}});
-  return {{"max_mm", number(shift->largest_mm(), digits)},
-          {"offsets", std::move(offsets)},
-          {"rest", statistics_json(shift->rest)}};
-}
-
-Json work_shift_json(const BestOffsets::OfWork& work) {
-  return {{"work", work.work.empty() ? Json(nullptr) : Json(work.work)},
-          {"shift_mm", numbers(work.shift_mm, digits)},
-          {"turn_deg", work.turn_deg ? numbers(*work.turn_deg, digits) : Json(nullptr)},
-          {"words", work.words},
-          {"before_max_mm", number(work.before_mm, digits)},
-          {"rest_max_mm", number(work.rest_mm, digits)}};
-}
-
-Json best_offsets_json(const BestOffsets& best) {
-  Json work = Json::array(), tools = Json::array();
-  for (const BestOffsets::OfWork& of : best.work) work.push_back(work_shift_json(of));
-  for (const BestOffsets::OfTool& tool : best.tools)
-    tools.push_back({{"tool", tool.tool},
-                     {"length_mm", optional_number(tool.length_mm)},
-                     {"radius_mm", optional_number(tool.radius_mm)},
-                     {"words", tool.words}});
-  return {{"work", std::move(work)},
-          {"tools", std::move(tools)},
-          {"before", statistics_json(best.before)},
-          {"rest", statistics_json(best.rest)},
-          {"least_max_mm", number(best.least_mm, digits)},
-          {"is_enough", best.is_enough},
-          {"passes", best.passes},
-          {"notes", best.notes}};
-}
-
-Json tool_deviation_json(const std::optional<ToolDeviation>& off) {
-  if (!off) return nullptr;
-  return {{"tip_mm", number(off->tip_mm, digits)},
-          {"rim_mm", optional_number(off->rim_mm)},
-          {"flank_mm", optional_number(off->flank_mm)},
-          {"tilt_deg", number(off->tilt_deg, digits)},
-          {"line", off->line}};
-}
-
-Json tools_off_json(const std::vector<ToolReport>& tools) {
-  const auto in_mm = [](const std::optional<double>& length) {
-    return length ? number(*length / mm, digits) : Json(nullptr);
-  };
-  Json list = Json::array();
-  for (const ToolReport& tool : tools)
-    list.push_back({{"tool", tool.size.number},
-                    {"diameter_mm", in_mm(tool.size.diameter)},
-                    {"flute_mm", in_mm(tool.size.flute)},
-                    {"before", tool_deviation_json(tool.before)},
-                    {"after", tool_deviation_json(tool.after)}});
-  return list;
-}
-
-Json summary_json(const RunReport& report) {
-  return {{"before", optional_statistics(report.before)},
-          {"after", optional_statistics(report.after)},
-          {"sources", sources_json(report)},
-          {"sensitivity", sensitivity_json(report.sensitivity)},
-          {"air", largest_json(report.air)},
-          {"correction", largest_json(report.correction)},
-          {"corrected_percent", optional_number(report.corrected_percent)},
-          {"path_mm", number(report.path_mm, digits)},
-          {"common_shift", common_shift_json(report.common_shift)},
-          {"tool_deviations", tools_off_json(report.tools_off)}};
 }
 
 /// Unknown values are null, not zero.
