@@ -31,8 +31,9 @@ KnownParameters uncertain_parameters(const Machine& machine) {
     variances.push_back(sigma * sigma);
   }
   const auto all = static_cast<Eigen::Index>(known.names.size());
+  if (variances.empty()) return known;
   Eigen::MatrixXd C = Eigen::MatrixXd::Zero(all, all);
-  C.topLeftCorner(fitted, fitted) = known.covariance;
+  if (fitted > 0) C.topLeftCorner(fitted, fitted) = known.covariance;
   C.diagonal().tail(all - fitted) = Eigen::Map<const Eigen::VectorXd>(variances.data(), all - fitted);
   known.covariance = std::move(C);
   return known;

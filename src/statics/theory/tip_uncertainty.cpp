@@ -51,7 +51,7 @@ TipCovariance TipUncertainty::of_tip(const Configuration& configuration, const L
   Vector6 by_force = J.col(n);
   if (mechanism_.fixture) by_force += part_twist(mechanism_, load, X_MT);
   TipCovariance result;
-  result.parameters = J.leftCols(n) * known_.covariance * J.leftCols(n).transpose();
+  if (n > 0) result.parameters = J.leftCols(n) * known_.covariance * J.leftCols(n).transpose();
   result.force = uncertainty_.force * uncertainty_.force * by_force * by_force.transpose();
   const auto squared = [](double x) { return x * x; };
   const Vector3 axis = X_MT.R.col(2), by_temperature = shift_ - growth_ * axis;
