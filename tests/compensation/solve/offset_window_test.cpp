@@ -72,7 +72,8 @@ TEST_CASE("the window of a machine that is not square ends where a corner uses u
 }
 
 TEST_CASE(
-    "a window below the smallest step is none, and a place that need not keep the tolerance may get worse") {
+    "there is no window below the smallest step, and a place that need not keep the tolerance may get "
+    "worse") {
   CorrectedPath path(rigid_gantry("0, 0, 0", 0.02));
   CompensationOptions tight = path.shop.options;
   tight.tolerance = 1e-7;  // rounded words leave more
