@@ -392,7 +392,8 @@ TEST_CASE("a check that was edited is a condition again, behind which positions 
 
 TEST_CASE("the first cut is a feed move or a cycle, and there is one guard in all windows of a program") {
   const auto line_of = [](const std::string& text) {
-    const Move* move = first_cut(read(text, "linuxcnc"));
+    const Program program = read(text, "linuxcnc");
+    const Move* move = first_cut(program);
     return move == nullptr ? 0 : move->line;
   };
   CHECK(line_of("G21 G90\nG28\nG0 X0 Y0 Z5\nG53 G0 Z0\nG0 Z5\nG81 X1 Y1 Z-3 R1 F80\n") == 6);
