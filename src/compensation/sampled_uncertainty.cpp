@@ -90,6 +90,21 @@ std::vector<Place> banded_places(const std::vector<LoadPlace>& places) {
   return result;
 }
 
+/// By how much the part of each frame is elsewhere because a drawn machine touched it off.
+std::vector<Vector3> drawn_datums(const std::vector<WorkFrame>& frames, const Model& drawn,
+                                  double repeatability, Normal& normal) {
+  std::vector<Vector3> all;
+  for (const WorkFrame& frame : frames) {
+    Vector3& moved = all.emplace_back(Vector3::Zero());
+    if (!frame.touched) continue;
+    const UnloadedDeviation touched = unloaded_deviation({&drawn, frame.touched->p_MT});
+    if (touched.status != Status::converged) continue;
+    moved =
+        frame.touched->axes.asDiagonal() * (touched.d + repeatability * normal.next3()) - frame.datum_shift;
+  }
+  return all;
+}
+
 }  // namespace
 
 DrawnMachine drawn_machine(const Machine& machine, std::size_t index) {
@@ -112,7 +127,8 @@ DrawnMachine drawn_machine(const Machine& machine, std::size_t index) {
 }
 
 SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools,
-                          const std::vector<LoadPlace>& places, std::size_t samples, int threads) {
+                          const std::vector<WorkFrame>& frames, const std::vector<LoadPlace>& places,
+                          std::size_t samples, int threads) {
   const std::vector<Place> at = banded_places(places);
   SampledBands bands{samples, at.size()};
   std::vector<std::vector<std::optional<double>>> found(samples);  // by sample and place: u'(d - d0)
@@ -122,6 +138,8 @@ SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools
     const ToolModels with = prepare_tools(drawn.machine, model, tools);
     PlaceSolver solver(nullptr, !at.empty() && at.front().of->load.at_platform);
     Normal normal(~k);
+    const std::vector<Vector3> datums =
+        drawn_datums(frames, model, machine.uncertainty->repeatability, normal);
     for (const Place& place : at) {
       const Waypoint& w = place.of->at;
       const ForwardRequest request{.model = &model_with(model, &with, place.of->tool),
@@ -135,7 +153,8 @@ SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools
           machine.uncertainty->repeatability * normal.next3() - drawn.tool_length * answer.X_MT.R.col(2);
       std::optional<double>& result = found[k].emplace_back();
       if (answer.status == Status::converged)
-        result = place.u.dot(deviation(answer.X_MT, place.wanted).head<3>() + own - w.after.head<3>());
+        result = place.u.dot(deviation(answer.X_MT, place.wanted).head<3>() + own - datums[place.of->frame] -
+                             w.after.head<3>());
     }
   });
   std::vector<PlaceSums> sums(at.size());
@@ -180,9 +199,9 @@ std::optional<TipCovariance> solve_covariance(const LoadPlace& place, const TipU
   if (answer.status != Status::converged) return std::nullopt;
   const Equilibrium found = solver.equilibrium(request, answer);
   if (found.status != Status::converged) return std::nullopt;
-  const TipUncertainty& uncertainty = uncertainties.at(place.model);
+  const TipUncertainty& uncertainty = uncertainties.by_model.at(place.model);
   StaticsWork work = uncertainty.work();
-  return uncertainty.of_tip(found.configuration, place.load, work);
+  return uncertainty.of_tip(found.configuration, place.load, work, uncertainties.by_frame[place.frame]);
 }
 
 }  // namespace counterflex

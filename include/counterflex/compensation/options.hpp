@@ -9,6 +9,7 @@
 #include <vector>
 
 #include "counterflex/compensation/path_directions.hpp"
+#include "counterflex/compensation/tip_uncertainties.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/program/boxed_optional.hpp"
@@ -16,7 +17,6 @@
 #include "counterflex/program/rewrite.hpp"
 #include "counterflex/statics/batch_solver.hpp"
 #include "counterflex/statics/nominal.hpp"
-#include "counterflex/statics/tip_uncertainty.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
@@ -61,7 +61,7 @@ struct Job {
   std::optional<TipPosition> from{};    ///< of a window: where the path before it ended
   /// How actuators move along the path; none: not known, their joints do not lag.
   const PathDirections* directions = nullptr;
-  const TipUncertainties* uncertainties = nullptr;  ///< by model; none: waypoints have no covariance
+  const TipUncertainties* uncertainties = nullptr;  ///< none: waypoints have no covariance
 };
 
 /// How actuators move at a fraction of a move, on the side that ends or begins there.

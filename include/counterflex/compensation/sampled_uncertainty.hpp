@@ -30,10 +30,11 @@ struct SampledBands {
 };
 
 /// The bands of `after` (of a prediction: `before`, which is the same there), of at most 64 places that have
-/// a covariance, at equal distances in the list. `tools`: of the program. The result does not depend on
-/// `threads`.
+/// a covariance, at equal distances in the list, whose parts are at `frames`. `tools`: of the program. The
+/// result does not depend on `threads`.
 SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools,
-                          const std::vector<LoadPlace>& places, std::size_t samples, int threads);
+                          const std::vector<WorkFrame>& frames, const std::vector<LoadPlace>& places,
+                          std::size_t samples, int threads);
 
 /// The covariance of the tip at a place, by its parts. Nothing where it cannot be solved.
 std::optional<TipCovariance> solve_covariance(const LoadPlace& place, const TipUncertainties& uncertainties,

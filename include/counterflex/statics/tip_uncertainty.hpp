@@ -1,7 +1,5 @@
 #pragma once
 /// How uncertain the place of a loaded machine's tip is, to first order. EQUATIONS.md, section 14.
-#include <map>
-
 #include "counterflex/statics/nominal.hpp"
 #include "counterflex/statics/parameter_tangents.hpp"
 
@@ -16,6 +14,13 @@ struct TipCovariance {
   Matrix6 sum() const { return parameters + force + others; }
 };
 
+/// How the place of a part follows the errors of the machine with which it was touched off. Nothing where it
+/// was not.
+struct DatumTangents {
+  Eigen::Matrix<double, 3, Eigen::Dynamic> by_parameter{};  ///< m by parameter (SI), axes of M
+  Vector3 axes = Vector3::Zero();                           ///< 1 for each touched axis of M, else 0
+};
+
 /// Covariances of the tip of one machine, whose `uncertainty` and parameters' deviations they are of. Keeps a
 /// reference to nothing; threads may share it.
 class TipUncertainty {
@@ -27,7 +32,13 @@ class TipUncertainty {
   StaticsWork work() const { return tangents_.work(); }
 
   /// Of the tip relative to the part, at an equilibrium of the model under `load` with everything acting.
-  TipCovariance of_tip(const Configuration& configuration, const Load& load, StaticsWork& work) const;
+  /// `datum`: of the part.
+  TipCovariance of_tip(const Configuration& configuration, const Load& load, StaticsWork& work,
+                       const DatumTangents& datum = {}) const;
+
+  /// Of a datum that was touched off at `configuration`, an equilibrium of the model without a load. `axes`:
+  /// 1 for each axis of M in which the datum is from there, else 0.
+  DatumTangents of_datum(const Configuration& configuration, const Vector3& axes, StaticsWork& work) const;
 
  private:
   Mechanism mechanism_;
@@ -38,9 +49,6 @@ class TipUncertainty {
   double growth_ = 0;                ///< of the spindle (m/K)
 };
 
-/// By model: that of the machine itself, and those of `tools`. Their models outlive it.
-using TipUncertainties = std::map<const Model*, TipUncertainty>;
-
 /// Half the width of the band of a position deviation `d` with covariance `C`, k = 2 (m): 2 sqrt(u'Cu), u the
 /// direction of d. Where d is not larger than that its direction means nothing, and u is the most uncertain
 /// direction.
@@ -48,8 +56,5 @@ double band(const Vector3& d, const Matrix3& C);
 
 /// The direction u of `band`.
 Vector3 band_direction(const Vector3& d, const Matrix3& C);
-
-/// None for a machine without an uncertainty.
-TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, const ToolModels& tools);
 
 }  // namespace counterflex

@@ -11,12 +11,20 @@
 
 namespace counterflex {
 
+/// Where a part was touched off with the machine.
+struct TouchedPlace {
+  Vector3 p_MT = Vector3::Zero();  ///< the commanded position, in M (m)
+  Vector3 axes =
+      Vector3::Ones();  ///< 1 for each axis of M that is from there, 0 for one that the program sets
+};
+
 /// Where a work offset puts program coordinates.
 struct WorkFrame {
   std::string name{};  ///< of the offset that was used ("G54"); empty: program coordinates are M
   Pose X_MW;           ///< as the control has it: a target in M is written as X_MW^-1 of it
   /// Wanted minus commanded position of the original program, axes of M (m).
   Vector3 datum_shift = Vector3::Zero();
+  std::optional<TouchedPlace> touched{};  ///< what the shift comes from
   /// Where no datum is stated: the mean deviation of the unloaded machine along the feed moves, axes of M
   /// (m).
   std::optional<Vector3> common_shift{};

@@ -216,13 +216,13 @@ std::unique_ptr<Run> prepared_run(const Options& options, Console& console,
   const std::vector<Remark> axis_warnings = place_program_axes(run->program, run->machine);
   run->tool_models = prepare_tools(on, run->machine.model, run->program.tools);
   run->uncertainty_files = read_uncertainty_files(options, run->machine.machine);
-  run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models);
   forces.refuse_unread();
   run->starts.emplace();
   refuse_orientation(*run);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
                     run->work.frames);
+  run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models, run->work.frames);
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
@@ -321,8 +321,8 @@ void add_uncertainty(const Options& options, const Run& run, RunReport& report,
       machine, worst,
       worst != nullptr ? solve_covariance(*worst, run.uncertainties, &*run.starts) : std::nullopt);
   if (options.samples > 0)
-    report.uncertainty->sampled =
-        sample_bands(machine, run.program.tools, places, options.samples, run.options.threads);
+    report.uncertainty->sampled = sample_bands(machine, run.program.tools, run.work.frames, places,
+                                               options.samples, run.options.threads);
 }
 
 }  // namespace

@@ -79,6 +79,7 @@ WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
     const auto k = static_cast<Eigen::Index>(axis);
     offset.X_MW.p[k] = *frame.set_mm[axis] * mm;
     offset.datum_shift[k] = 0;
+    if (offset.touched) offset.touched->axes[k] = 0;
   }
   offset.X_MW = offset.X_MW * placed(frame);
   return offset;
@@ -97,8 +98,10 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
             "{0}=X,Y,Z/DATUM",
             name, selected.empty() ? "starts with" : "selects", names(machine.work)));
   WorkFrame frame{name, found->second.X_MW};
-  if (const auto& touched = found->second.datum.touched_at)
-    frame.datum_shift = deviation_at(model, frame.X_MW * *touched, machine_file, name);
+  if (const auto& touched = found->second.datum.touched_at) {
+    frame.touched = {.p_MT = frame.X_MW * *touched};
+    frame.datum_shift = deviation_at(model, frame.touched->p_MT, machine_file, name);
+  }
   return frame;
 }
 

@@ -76,13 +76,14 @@ void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& al
     if (!knows_before(waypoints[i])) continue;
     if (request.model != last) {
       last = request.model;
-      uncertainty = &job.uncertainties->at(last);
+      uncertainty = &job.uncertainties->by_model.at(last);
       work.emplace(uncertainty->work());
     }
     const Equilibrium found = solver.equilibrium(request, all.answers[all.order[i]]);
     if (found.status != Status::converged) continue;
     const Load load{request.F, job.forces.at_platform()};
-    waypoints[i].covariance = uncertainty->of_tip(found.configuration, load, *work).sum();
+    const DatumTangents& datum = job.uncertainties->by_frame[frame_of(all.piece_of(all.order[i]))];
+    waypoints[i].covariance = uncertainty->of_tip(found.configuration, load, *work, datum).sum();
   }
 }
 

@@ -43,23 +43,34 @@ TipUncertainty::TipUncertainty(const Machine& machine, const Model& model)
   growth_ = (to.growth - from.growth) / (high - low);
 }
 
-TipCovariance TipUncertainty::of_tip(const Configuration& configuration, const Load& load,
-                                     StaticsWork& work) const {
-  const Eigen::Matrix<double, 6, Eigen::Dynamic> J = tangents_.of_tip(configuration, load, work);
+TipCovariance TipUncertainty::of_tip(const Configuration& configuration, const Load& load, StaticsWork& work,
+                                     const DatumTangents& datum) const {
+  Eigen::Matrix<double, 6, Eigen::Dynamic> J = tangents_.of_tip(configuration, load, work);
   const Pose X_MT = tip(mechanism_, configuration);
   const Eigen::Index n = known_.covariance.rows();
   Vector6 by_force = J.col(n);
   if (mechanism_.fixture) by_force += part_twist(mechanism_, load, X_MT);
+  if (datum.by_parameter.cols() > 0) J.topLeftCorner(3, n) -= datum.by_parameter;
   TipCovariance result;
   if (n > 0) result.parameters = J.leftCols(n) * known_.covariance * J.leftCols(n).transpose();
   result.force = uncertainty_.force * uncertainty_.force * by_force * by_force.transpose();
   const auto squared = [](double x) { return x * x; };
   const Vector3 axis = X_MT.R.col(2), by_temperature = shift_ - growth_ * axis;
   result.others.topLeftCorner<3, 3>() =
-      squared(uncertainty_.repeatability) * Matrix3::Identity() +
+      squared(uncertainty_.repeatability) * Matrix3((Vector3::Ones() + datum.axes).asDiagonal()) +
       squared(uncertainty_.tool_length) * axis * axis.transpose() +
       squared(uncertainty_.temperature) * by_temperature * by_temperature.transpose();
   return result;
+}
+
+DatumTangents TipUncertainty::of_datum(const Configuration& configuration, const Vector3& axes,
+                                       StaticsWork& work) const {
+  DatumTangents datum{.axes = axes};
+  const Eigen::Index n = known_.covariance.rows();
+  if (n > 0)
+    datum.by_parameter =
+        axes.asDiagonal() * tangents_.of_tip(configuration, Load{}, work).topLeftCorner(3, n);
+  return datum;
 }
 
 double band(const Vector3& d, const Matrix3& C) {
@@ -71,15 +82,6 @@ Vector3 band_direction(const Vector3& d, const Matrix3& C) {
   const double size = d.norm();
   if (size * size > 2 * std::sqrt(std::max(d.dot(C * d), 0.0))) return d / size;
   return Eigen::SelfAdjointEigenSolver<Matrix3>(C).eigenvectors().col(2);
-}
-
-TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, const ToolModels& tools) {
-  TipUncertainties all;
-  if (!machine.uncertainty) return all;
-  all.emplace(&model, TipUncertainty(machine, model));
-  for (const auto& [number, with] : tools)
-    all.emplace(&with, TipUncertainty(with_tool(machine, machine.tools.at(number)), with));
-  return all;
 }
 
 }  // namespace counterflex

@@ -176,3 +176,34 @@ TEST_CASE("a band is along the deviation, or in the most uncertain direction whe
   CHECK(band({3, 4, 0}, C) == doctest::Approx(2 * std::sqrt((9.0 + 4 * 16) / 25)));
   CHECK(std::abs(band_direction({0, 0, 0}, C).z()) == doctest::Approx(1));
 }
+
+TEST_CASE(
+    "at the place where the part was touched off, the machine's parameters are not uncertain without a "
+    "load") {
+  Posed at = posed(made_with(MachineKind::robot6r, "\n[uncertainty]\nrepeatability_um = 3\n"));
+  const Model model = prepare(at.machine);
+  const TipUncertainty uncertainty(at.machine, model);
+  StaticsWork work = uncertainty.work();
+  at.load = {};
+  const Configuration there = at.solve(model).configuration;
+  at.drho *= -1;
+  const Configuration elsewhere = at.solve(model).configuration;
+  const auto variances = [&](const Configuration& touched, const Vector3& axes) {
+    const DatumTangents datum = uncertainty.of_datum(touched, axes, work);
+    return Vector3(uncertainty.of_tip(there, {}, work, datum).parameters.diagonal().head<3>());
+  };
+  const TipCovariance alone = uncertainty.of_tip(there, {}, work);
+  const Vector3 all = alone.parameters.diagonal().head<3>();
+  CHECK(all.minCoeff() > 1e-12);
+  CHECK(variances(there, Vector3::Ones()).maxCoeff() < 1e-12 * all.maxCoeff());
+  const Vector3 only_z = variances(there, Vector3::UnitZ());
+  CHECK(only_z.x() == all.x());
+  CHECK(only_z.z() < 1e-12 * all.z());
+  const Vector3 far = variances(elsewhere, Vector3::Ones());
+  CHECK(far.maxCoeff() > 1e-4 * all.maxCoeff());
+  CHECK(far.maxCoeff() < all.maxCoeff());
+  const TipCovariance touched =
+      uncertainty.of_tip(there, {}, work, uncertainty.of_datum(there, Vector3::UnitZ(), work));
+  CHECK(touched.others(0, 0) == alone.others(0, 0));
+  CHECK(touched.others(2, 2) == 2 * alone.others(2, 2));
+}

@@ -1,0 +1,36 @@
+#include "counterflex/compensation/tip_uncertainties.hpp"
+
+#include "compensation/solve/solver.hpp"
+
+namespace counterflex {
+namespace {
+
+/// Nothing where the machine does not reach the place.
+DatumTangents datum_tangents(const TouchedPlace& touched, const Model& model,
+                             const TipUncertainty& uncertainty) {
+  PlaceSolver solver(nullptr, false);
+  const ForwardRequest request{.model = &model, .target = touched.p_MT};
+  ForwardAnswer answer;
+  solver.forwards({&request, 1}, {&answer, 1});
+  if (answer.status != Status::converged) return {};
+  const Equilibrium found = solver.equilibrium(request, answer);
+  if (found.status != Status::converged) return {};
+  StaticsWork work = uncertainty.work();
+  return uncertainty.of_datum(found.configuration, touched.axes, work);
+}
+
+}  // namespace
+
+TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, const ToolModels& tools,
+                                   const std::vector<WorkFrame>& frames) {
+  TipUncertainties all;
+  if (!machine.uncertainty) return all;
+  const TipUncertainty& own = all.by_model.emplace(&model, TipUncertainty(machine, model)).first->second;
+  for (const auto& [number, with] : tools)
+    all.by_model.emplace(&with, TipUncertainty(with_tool(machine, machine.tools.at(number)), with));
+  for (const WorkFrame& frame : frames)
+    all.by_frame.push_back(frame.touched ? datum_tangents(*frame.touched, model, own) : DatumTangents{});
+  return all;
+}
+
+}  // namespace counterflex
