@@ -46,9 +46,9 @@ struct KrlTarget {
 };
 
 /// X, Y, Z, A, B, C in mm and degrees.
-Matrix4 pose_of(const std::smatch& match, std::size_t first) {
+Matrix4 pose_of(const std::smatch& match, std::size_t from) {
   std::array<double, 6> n{};
-  for (std::size_t i = 0; i < n.size(); ++i) n[i] = std::stod(match[first + i]);
+  for (std::size_t i = 0; i < n.size(); ++i) n[i] = std::stod(match[from + i]);
   return homogeneous(Vector3(n[0], n[1], n[2]) * mm, rotation_of_words({n[5], n[4], n[3]}));
 }
 
