@@ -19,6 +19,17 @@ TEST_CASE("a machine file needs only its format and a chain; the rest has defaul
   CHECK(machine.max_correction == 1e-3);
 }
 
+TEST_CASE("serial number and date of a machine file are kept; a date may be a date of TOML or be in quotes") {
+  const Machine machine = machine_with("serial = \"VF2-\\u0007 0815\"\ndate = 2024-02-29\n");
+  CHECK(machine.serial == "VF2-\\x07 0815");
+  CHECK(machine.date == "2024-02-29");
+  CHECK(describe(machine).find("serial       VF2-\\x07 0815\ndate         2024-02-29\n") !=
+        std::string::npos);
+  CHECK(machine_with("date = \"0999-12-31\"\n").date == "0999-12-31");
+  CHECK(machine_with("").serial.empty());
+  CHECK(machine_with("").date.empty());
+}
+
 TEST_CASE("controlled components have the order of six-vectors, for any order in the file") {
   const std::string three = "{ actuator = \"revolute\", axis = \"x\" }, " + x_axis + ", " + x_axis;
   const Machine machine = machine_of(three, "controlled = [\"rz\", \"y\", \"x\"]\n");

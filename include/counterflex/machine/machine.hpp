@@ -292,6 +292,8 @@ struct ThermalTable {
 
 struct Machine {
   std::string name;
+  std::string serial{};               ///< number of the machine; empty: not stated
+  std::string date{};                 ///< of the file's data, "2026-11-20"; empty: not stated
   std::vector<Component> controlled;  ///< as many as there are actuators, or none
   std::optional<Pose> home_X_MP;      ///< required for more than one chain
   Location home_at;                   ///< place of home in the file: [home], or else the first chain

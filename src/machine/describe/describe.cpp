@@ -163,6 +163,8 @@ void describe_settings(const Machine& machine, std::string& text) {
     text += fmt::format("{:<12} {}\n", label, value);
   };
   line("machine", machine.name.empty() ? "without a name" : machine.name);
+  if (!machine.serial.empty()) line("serial", machine.serial);
+  if (!machine.date.empty()) line("date", machine.date);
   line("controlled", controlled_phrase(machine));
   line("home", home_phrase(machine));
   line("tool", tool_phrase(machine));

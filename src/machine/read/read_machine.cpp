@@ -66,15 +66,17 @@ Machine read_machine(std::string_view text, const std::string& file) {
   const Source source(text, file);
   const toml::table document = source.parse();
   check_format(document, source, "counterflex-machine 1", "a machine file");
-  check_keys(document,
-             {"format",       "name",       "controlled", "home",       "gravity_m_s2", "gravity_reference",
-              "tool",         "spindle",    "tools",      "work",       "fixture",      "thermal",
-              "program",      "controller", "limits",     "parameters", "uncertainty",  "springs",
-              "error_tables", "branches",   "templates",  "chain"},
+  check_keys(document, {"format",       "name",       "serial",       "date",
+                        "controlled",   "home",       "gravity_m_s2", "gravity_reference",
+                        "tool",         "spindle",    "tools",        "work",
+                        "fixture",      "thermal",    "program",      "controller",
+                        "limits",       "parameters", "uncertainty",  "springs",
+                        "error_tables", "branches",   "templates",    "chain"},
              "a machine file", source);
   Machine machine;
   if (const toml::node* name = document.get("name"))
     machine.name = without_controls(as_text(*name, "name", source));
+  read_identity(document, source, machine);
   read_controlled(document, source, machine);
   read_home(document, source, machine);
   read_gravity(document, source, machine);

@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <chrono>
 
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/program/dialects.hpp"
@@ -62,7 +64,35 @@ std::vector<std::string> read_tool_change_moves(const toml::node& node, const So
   return axes;
 }
 
+/// A day, as a date of TOML or in quotes: "2026-11-20".
+std::string read_day(const toml::node& node, std::string_view name, const Source& source) {
+  if (const auto* day = node.as_date())
+    return fmt::format("{:04}-{:02}-{:02}", day->get().year, day->get().month, day->get().day);
+  const auto* text = node.as_string();
+  const auto digits = [&](std::size_t begin, std::size_t count) {
+    int value = 0;
+    for (const char c : text->get().substr(begin, count))
+      value = value < 0 || c < '0' || c > '9' ? -1 : 10 * value + (c - '0');
+    return value;
+  };
+  if (text != nullptr && text->get().size() == 10 && text->get()[4] == '-' && text->get()[7] == '-') {
+    const int year = digits(0, 4), month = digits(5, 2), day = digits(8, 2);
+    if (year >= 0 && month >= 0 && day >= 0 &&
+        std::chrono::year_month_day(std::chrono::year(year), std::chrono::month(static_cast<unsigned>(month)),
+                                    std::chrono::day(static_cast<unsigned>(day)))
+            .ok())
+      return text->get();
+  }
+  source.fail(node, fmt::format("{} must be a day as 2026-11-20, not {}", name, seen(node)));
+}
+
 }  // namespace
+
+void read_identity(const toml::table& document, const Source& source, Machine& machine) {
+  if (const toml::node* serial = document.get("serial"))
+    machine.serial = without_controls(as_text(*serial, "serial", source));
+  if (const toml::node* date = document.get("date")) machine.date = read_day(*date, "date", source);
+}
 
 void read_controlled(const toml::table& document, const Source& source, Machine& machine) {
   const toml::node* node = document.get("controlled");

@@ -5,6 +5,9 @@
 
 namespace counterflex::toml_file {
 
+/// `serial` and `date`.
+void read_identity(const toml::table& document, const Source& source, Machine& machine);
+
 /// Each reads the optional table or key of its name from the document into `machine`.
 void read_controlled(const toml::table& document, const Source& source, Machine& machine);
 void read_home(const toml::table& document, const Source& source, Machine& machine);
