@@ -29,11 +29,12 @@ std::string sources(std::span<const std::string_view> texts) {
   return list;
 }
 
-void write_policy(const Take& take) {
-  take(
-      fmt::format("<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src{}; "
-                  "style-src{}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n",
-                  sources(page_scripts()), sources(page_styles())));
+void write_policy(const std::string& sheet, const Take& take) {
+  const std::string_view style = sheet_style();
+  take(fmt::format(
+      "<meta http-equiv=\"Content-Security-Policy\" content=\"default-src 'none'; script-src{}; "
+      "style-src{}{}; img-src data: blob:; base-uri 'none'; form-action 'none'\">\n",
+      sources(page_scripts()), sources(page_styles()), sheet.empty() ? "" : sources(std::span(&style, 1))));
 }
 
 void write_elements(const char* name, std::span<const std::string_view> texts, const Take& take) {
@@ -88,17 +89,21 @@ std::string file_of(const RunReport& report, std::string_view role) {
 }  // namespace
 
 void write_page(const std::string& title, const std::vector<PageRun>& runs, const Take& take,
-                const std::string& conclusion) {
+                const std::string& conclusion, const std::string& sheet) {
   std::string_view rest = page_template();
   while (!rest.empty()) {
     const std::string_view line = rest.substr(0, std::min(rest.find('\n'), rest.size() - 1) + 1);
     rest.remove_prefix(line.size());
     if (line == "<!-- counterflex: csp -->\n")
-      write_policy(take);
+      write_policy(sheet, take);
     else if (line == "<!-- counterflex: title -->\n")
       take("<title>" + xml_escaped(title) + "</title>\n");
-    else if (line == "<!-- counterflex: styles -->\n")
+    else if (line == "<!-- counterflex: styles -->\n") {
+      const std::string_view style = sheet_style();
       write_elements("style", page_styles(), take);
+      if (!sheet.empty()) write_elements("style", std::span(&style, 1), take);
+    } else if (line == "<!-- counterflex: sheet -->\n")
+      take(sheet);
     else if (line == "<!-- counterflex: data -->\n")
       write_data(runs, conclusion, take);
     else if (line == "<!-- counterflex: scripts -->\n")

@@ -44,9 +44,15 @@ std::string curves_json(const PathCurves& curves);
 ///     {"schema", "runs": [{"name", "report", "curves", "loads", "machine", "source"}], "conclusion": what to
 ///     take home, in words}
 ///
-/// without the last key where `conclusion` is empty.
+/// without the last key where `conclusion` is empty. `sheet` is the HTML of a first printed page, as
+/// `proof_sheet` writes it, or empty.
 void write_page(const std::string& title, const std::vector<PageRun>& runs,
-                const std::function<void(std::string_view)>& take, const std::string& conclusion = "");
+                const std::function<void(std::string_view)>& take, const std::string& conclusion = "",
+                const std::string& sheet = "");
+
+/// The setup sheet of a run with `RunFacts::proof`, as HTML for `write_page`: one page of A4, in words of
+/// the shop. It has no date: the same inputs give the same bytes.
+std::string proof_sheet(const RunReport& report);
 
 /// "groove.ngc on Orthoglide"; of a verification "groove.comp.ngc for groove.ngc on Orthoglide". "standard
 /// input" where a file has no name.

@@ -12,6 +12,7 @@
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/program/boxed_optional.hpp"
 #include "counterflex/program/overview.hpp"
+#include "counterflex/program/restart.hpp"
 #include "counterflex/report/path_curves.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "counterflex/sanity/checks.hpp"
@@ -39,6 +40,34 @@ struct WrittenGuard {
   std::size_t places = 0;  ///< at which the corners of the window were solved
 };
 
+/// What the setup sheet of a written program states besides its report (see `proof_sheet`).
+struct ProofFacts {
+  /// A work offset of the program.
+  struct Offset {
+    std::string work;                    ///< name; empty: program coordinates are M
+    Vector3 place_mm = Vector3::Zero();  ///< of its origin, in M
+    Vector3 rpy_deg = Vector3::Zero();   ///< of its axes, in M
+    std::optional<Vector3> shown_mm{};   ///< the numbers on the control; none: not known
+  };
+  /// A tool of the program.
+  struct Tool {
+    long number = 0;  ///< 0: none known
+    std::optional<double> length_mm{}, radius_mm{};
+    std::vector<std::string> forces;  ///< where the force on it comes from, in words; empty: no force
+  };
+  std::string serial, date;  ///< of the machine file; empty: not stated
+  std::vector<Offset> offsets;
+  /// By how much each work offset may be off; none: not even by the smallest of `window_steps_mm`.
+  std::optional<double> window_mm{};
+  std::size_t window_places = 0;  ///< at which it was solved
+  bool window_lengths = false;    ///< the lengths of tools that bend may be off, too
+  bool window_turns = false;      ///< and the angles of the frames: by `guarded_angle_deg`
+  std::vector<Tool> tools;
+  RestartLines restart;
+  std::size_t solved_places = 0;   ///< at which the machine was solved forward with the written program
+  std::vector<InputFile> written;  ///< the corrected program first
+};
+
 /// What only the caller of a run knows. Inputs and options keep their order in the report.
 struct RunFacts {
   std::string version;  ///< of the tool
@@ -52,6 +81,7 @@ struct RunFacts {
   /// The waypoints' geometry, load, superposition, air, higher and lower were solved.
   bool attribution = false;
   std::optional<WrittenGuard> guard{};
+  std::optional<ProofFacts> proof{};  ///< with --proof, if a program is written
 };
 
 /// Where a line's largest deviation is.

@@ -110,6 +110,7 @@ class JobList {
     BatchJob job;
     job.program = program;
     job.options = options_for(program, layers, entry);
+    job.options.project_file = find_project_file(program).value_or("");
     job.options.force_overwrite = job.options.force_overwrite || force_overwrite_;
     job.output = *job.options.output;
     job.key = key_of(layers, job);

@@ -1,10 +1,12 @@
 #include <filesystem>
+#include <optional>
 #include <utility>
 
 #include "commands/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "run/header/header_hashes.hpp"
 #include "run/outputs.hpp"
+#include "run/proof.hpp"
 #include "run/run.hpp"
 #include "run/windows.hpp"
 
@@ -18,7 +20,7 @@ struct CorrectedScan {
 };
 
 CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadOptions& read,
-                             ProgramFile& file, RunTally& tally) {
+                             ProgramFile& file, RunTally& tally, ProofNotes* proof) {
   const std::string name = shown_name(options.verify.corrected);
   CorrectedScan scan;
   file.bytes.hash_along();
@@ -27,6 +29,7 @@ CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadO
   while (reader.next()) {
     Program& window = reader.window();
     if (!std::exchange(begun, true)) scan.beginning = window.text;
+    if (proof != nullptr) proof->add_text(window.text);
     ignore_axes(window, run.ignored);
     add_window(scan.program, window);
     tally.add_corrected(window);
@@ -36,10 +39,11 @@ CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadO
 }
 
 std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& tally, RunFiles& files,
-                                  Console& console) {
+                                  ProofNotes* proof, Console& console) {
   Windows windows(run, console);
-  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution,
-                        windows.events(tally, files));
+  WindowEvents events = windows.events(tally, files);
+  if (proof != nullptr) proof->listen(events);
+  return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution, events);
 }
 
 /// The data lists of the corrected program: files of the same names beside it, or those of the original that
@@ -66,7 +70,9 @@ std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
       open_program("corrected", options.verify.corrected, lists_beside_corrected(options), console);
   ReadOptions read = run->read;
   read.dialect = run->program.dialect;  // that of the original, independent of the name of the corrected file
-  const CorrectedScan scan = scan_corrected(options, *run, read, corrected, tally);
+  std::optional<ProofNotes> proof;
+  if (wants_proof(options)) proof.emplace(run->program.dialect);
+  const CorrectedScan scan = scan_corrected(options, *run, read, corrected, tally, proof ? &*proof : nullptr);
   run->facts.inputs.push_back(corrected.file);
   run->corrected_name = shown_name(options.verify.corrected);
   for (const std::string& warning : other_inputs_of_header(scan.beginning, *run))
@@ -74,8 +80,14 @@ std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
   RunFiles files(paths, {});
   corrected.bytes.rewind();
   ProgramReader reader(corrected.bytes, run->corrected_name, read);
-  const std::optional<Failure> failure = verify_all(*run, reader, tally, files, console);
+  const std::optional<Failure> failure =
+      verify_all(*run, reader, tally, files, proof ? &*proof : nullptr, console);
   corrected.bytes.refuse_change();
+  if (!failure && proof) {
+    run->facts.proof = proof->facts(*run);
+    run->facts.proof->written = {corrected.file};
+    for (const InputFile& list : corrected.data_lists) run->facts.proof->written.push_back(list);
+  }
   return deliver(options, *run, report_verification(run->context(), tally, scan.program, failure), tally,
                  files, console);
 }

@@ -42,7 +42,9 @@ constexpr int hesitation_ms = 100;               // until a signal that ended a 
 BatchJob job_for(const Options& watch, const std::string& program) {
   BatchJob job;
   job.program = program;
-  job.options = options_of(Command::compensate, layers_of(watch.sources, program).layers, program);
+  const ProgramLayers found = layers_of(watch.sources, program);
+  job.options = options_of(Command::compensate, found.layers, program);
+  job.options.project_file = found.project_file;
   job.options.quiet = watch.quiet;
   job.options.verbose = watch.verbose;
   job.output = job.options.output.value_or(default_output(program));

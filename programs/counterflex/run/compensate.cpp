@@ -8,6 +8,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/program/size_limit.hpp"
 #include "run/guard.hpp"
+#include "run/proof.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -41,10 +42,11 @@ struct Unnumbered {
 
 /// Runs window by window, to the first failure. Reads windows while others are solved.
 std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files, PointCount& points,
-                                      Console& console) {
+                                      ProofNotes* proof, Console& console) {
   Windows windows(run, console);
   Unnumbered unnumbered;
   WindowEvents events = windows.events(tally, files);
+  if (proof != nullptr) proof->listen(events);
   events.done = [&](const Job&, const Compensation& window) {
     std::unique_lock alone(windows.speaking());
     for (const LeftAlone& block : window.left_alone)
@@ -54,6 +56,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     points = window.counts.points;
     alone.unlock();
     add(window, tally, files);
+    if (proof != nullptr) proof->add_text(window.text);
   };
   const std::optional<Failure> failure = compensate_windows(
       windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution, events);
@@ -115,14 +118,18 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   prepare_writing(options, *run);
   if (options.guard) prepare_guard(*run, console);
   RunFiles files(paths, {.attribution = run->facts.attribution, .bands = !run->uncertainties.empty()},
-                 options.hash_outputs);
+                 options.hash_outputs || wants_proof(options));
   if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();
   if (run->file.lines) files.count_loop();
   RunTally tally = tally_for(options, *run);
   PointCount points;
-  const std::optional<Failure> failure = compensate_all(*run, tally, files, points, console);
+  std::optional<ProofNotes> proof;
+  if (wants_proof(options)) proof.emplace(run->program.dialect);
+  const std::optional<Failure> failure =
+      compensate_all(*run, tally, files, points, proof ? &*proof : nullptr, console);
   run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
   if (!failure) finish_program(options, *run, points, paths, files);
+  if (!failure && proof) run->facts.proof = proof->facts(*run);
   if (failure && failure->kind == ErrorKind::usage)
     return print_failure(*run, failure, console);  // no result: an option is wrong
   return report_end(

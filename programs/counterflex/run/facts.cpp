@@ -6,10 +6,13 @@
 #include <algorithm>
 #include <cmath>
 
+#include "counterflex/files/file_reader.hpp"
+#include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "process/version.hpp"
 #include "run/header/header.hpp"
+#include "run/proof.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -54,6 +57,10 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.inputs.insert(facts.inputs.end(), forces.begin(), forces.end());
   facts.inputs.insert(facts.inputs.end(), run.uncertainty_files.begin(), run.uncertainty_files.end());
   if (run.tools.file) facts.inputs.push_back(*run.tools.file);
+  if (wants_proof(options) && !options.project_file.empty()) {
+    FileReader project(options.project_file);
+    facts.inputs.push_back({"project", options.project_file, sha256(project)});
+  }
   for (InputFile& input : facts.inputs) input.path = without_controls(input.path);
   facts.min_block_ms = options.min_block_ms;
   facts.accept_partial = options.accept_partial;
@@ -71,6 +78,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
   if (options.number_pieces) facts.options.push_back({"number-pieces", true});
   if (options.max_points) facts.options.push_back({"max-points", static_cast<double>(*options.max_points)});
   if (options.guard) facts.options.push_back({"guard", true});
+  if (wants_proof(options)) facts.options.push_back({"proof", true});
   if (options.air_above_mm) facts.options.push_back({"air-above", *options.air_above_mm});
   if (options.predict.offsets) facts.options.push_back({"offsets", true});
   if (options.accept_partial) facts.options.push_back({"accept-partial", true});

@@ -104,12 +104,9 @@ std::optional<std::vector<LoadPlace>> corrected_places(Run& run, Console& consol
 }
 
 double window_of(const Run& run, const Cut& cut, const Guard& guard, const std::vector<LoadPlace>& places) {
-  OffsetQuestion question{places, run.options, run.machine.machine, run.machine.model, run.work.frames};
-  if (guard.length_mm && run.tool_models.contains(guard.tool)) question.tool = guard.tool;
-  question.turns = is_robot_dialect(run.program.dialect);
-  question.starts = &*run.starts;
-  const std::optional<double> window = offset_window(question);
-  if (window) return *window / mm;
+  std::optional<long> tool;
+  if (guard.length_mm && run.tool_models.contains(guard.tool)) tool = guard.tool;
+  if (const std::optional<double> window = window_of(run, tool, places)) return *window;
   throw InputError(
       ErrorKind::not_compensated, {run.program.file, cut.move.line, 1},
       fmt::format(
@@ -119,6 +116,16 @@ double window_of(const Run& run, const Cut& cut, const Guard& guard, const std::
 }
 
 }  // namespace
+
+std::optional<double> window_of(const Run& run, std::optional<long> tool,
+                                const std::vector<LoadPlace>& places) {
+  OffsetQuestion question{places, run.options, run.machine.machine, run.machine.model, run.work.frames};
+  question.tool = tool;
+  question.turns = is_robot_dialect(run.program.dialect);
+  question.starts = &*run.starts;
+  const std::optional<double> window = offset_window(question);
+  return window ? std::optional(*window / mm) : std::nullopt;
+}
 
 void prepare_guard(Run& run, Console& console) {
   const Cut cut = find_first_cut(run);

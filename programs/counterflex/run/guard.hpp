@@ -1,5 +1,9 @@
 #pragma once
 /// The checks of --guard.
+#include <optional>
+#include <vector>
+
+#include "counterflex/compensation/loads_along.hpp"
 #include "process/console.hpp"
 #include "run/run.hpp"
 
@@ -12,5 +16,11 @@ namespace counterflex::cli {
 /// ErrorKind::machine_or_force if the numbers of the work offset on the control are not known,
 /// ErrorKind::not_compensated if not even the smallest window holds.
 void prepare_guard(Run& run, Console& console);
+
+/// The largest half-width (mm) of `window_steps_mm` within which the corrected program holds; empty: not even
+/// the smallest one. `tool`: its length may be off, too. `places` are of the corrected program, those that
+/// use up most of the tolerance.
+std::optional<double> window_of(const Run& run, std::optional<long> tool,
+                                const std::vector<LoadPlace>& places);
 
 }  // namespace counterflex::cli

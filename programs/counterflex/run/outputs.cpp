@@ -19,6 +19,7 @@
 #include "process/signals.hpp"
 #include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
+#include "run/proof.hpp"
 #include "settings/output_names.hpp"
 
 namespace counterflex::cli {
@@ -187,6 +188,10 @@ OutputPaths output_paths(const Options& options) {
     throw InputError(
         ErrorKind::usage, {},
         "the program and the document of --json cannot both go to standard output; give -o a file");
+  if (wants_proof(options) && !options.report)
+    throw InputError(ErrorKind::usage, {},
+                     "--proof adds a setup sheet to the page of the report, and no report is written; add "
+                     "--report STEM, or leave out --proof");
   refuse_control_characters(outputs, options.program);
   check_paths(outputs, inputs_of(options), options.folders);
   paths.folders = options.folders;
@@ -380,7 +385,9 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
   runs[0].loads = loads_json(report.loads);
   runs[0].machine = machine;
   runs[0].source = source_json(program, report);
-  write_page(page_title(report), runs, [&](std::string_view part) { page_->write(part); });
+  write_page(
+      page_title(report), runs, [&](std::string_view part) { page_->write(part); }, "",
+      report.facts.proof ? proof_sheet(report) : "");
 }
 
 std::vector<FileWriter*> RunFiles::written_lists() {
@@ -409,13 +416,29 @@ void RunFiles::write_counted() {
   counted_.reset();
 }
 
+std::vector<FileHash> RunFiles::complete_program() {
+  if (!completed_lists_) {
+    if (splitter_) splitter_->finish();
+    if (counted_) write_counted();
+    completed_lists_ = written_lists();
+  }
+  std::vector<FileWriter*> files{if_any(program_)};
+  files.insert(files.end(), completed_lists_->begin(), completed_lists_->end());
+  for (FileWriter& part : parts_) files.push_back(&part);
+  std::vector<FileHash> hashes;
+  for (FileWriter* file : files) {
+    if (file == nullptr) continue;
+    file->complete();
+    hashes.push_back({file->path(), file->sha256()});
+  }
+  return hashes;
+}
+
 void RunFiles::publish(bool with_program) {
-  if (splitter_) splitter_->finish();
-  if (counted_ && with_program) write_counted();
   std::vector<FileWriter*> files{if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)};
   if (with_program) {
-    const std::vector<FileWriter*> lists = written_lists();
-    files.insert(files.begin(), lists.begin(), lists.end());
+    complete_program();
+    files.insert(files.begin(), completed_lists_->begin(), completed_lists_->end());
     for (FileWriter& part : parts_) files.push_back(&part);
     files.push_back(if_any(program_));
   }

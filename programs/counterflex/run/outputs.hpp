@@ -137,6 +137,10 @@ class RunFiles {
   void add_report(const RunReport& report, const std::string& report_json, const PathCurves& curves,
                   const std::string& machine, FileReader& program);
 
+  /// Completes the corrected program, its data lists and parts: nothing can be added to them any more.
+  /// Returns them, the program first; with hashes if `hashed`.
+  std::vector<FileHash> complete_program();
+
   /// Publishes all files together, with the corrected program if `with_program`.
   void publish(bool with_program);
 
@@ -158,6 +162,7 @@ class RunFiles {
   std::optional<std::string> held_;
   std::optional<CountedProgram> counted_;
   std::optional<FileWriter> program_, csv_, json_, page_, plot_;
+  std::optional<std::vector<FileWriter*>> completed_lists_;  ///< when the program is complete
   std::vector<FileHash> published_;
 };
 

@@ -325,6 +325,15 @@ void add_uncertainty(const Options& options, const Run& run, RunReport& report,
                                                options.samples, run.options.threads);
 }
 
+/// A run without a program has no setup sheet.
+void add_hashes(const Options& options, RunReport& report, RunFiles& files) {
+  std::optional<ProofFacts>& proof = report.facts.proof;
+  if (report.error_kind) proof.reset();
+  if (!proof || options.command == Command::verify) return;
+  for (const FileHash& file : files.complete_program())
+    proof->written.push_back({"written", without_controls(file.path), file.sha256});
+}
+
 }  // namespace
 
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally,
@@ -352,6 +361,7 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   add_loads(report, loads, on.machine);
   if (options.report || options.json) add_texts(report, run.file.by_line());
   report.exit_status = exit_number(report.error_kind);
+  add_hashes(options, report, files);
   std::string json = to_json(report);
   const std::string machine =
       files.with_page() ? machine_json(machine_along(on.machine, on.model, places)) : "null";

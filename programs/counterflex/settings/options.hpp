@@ -172,6 +172,7 @@ struct Options {
   bool number_pieces = false;
   std::optional<std::size_t> max_points;  ///< of a robot program
   bool guard = false;                     ///< write checks before the first cut
+  bool proof = false;                     ///< add the setup sheet to the page of the report
   int threads = 1;
   double min_block_ms = 2;
 

@@ -204,6 +204,10 @@ const std::array option_table{
         "guard", "--guard", "", group::correction,
         "Write checks before the first cut: work offset, tool and units must be those of the correction",
         "false", false, [](Text name, Text text, Options& options) { options.guard = truth_of(name, text); }},
+    SettingOption{"proof", "--proof", "", group::output,
+                  "Begin STEM.html with a setup sheet: one printed page for the person at the machine",
+                  "false", false,
+                  [](Text name, Text text, Options& options) { options.proof = truth_of(name, text); }},
     SettingOption{
         "threads", "--threads", "N", group::correction,
         "Threads; the output does not depend on it (default: all processors)", "", false,

@@ -5,6 +5,7 @@
 #include "counterflex/report/formats.hpp"
 #include "report/json/json_numbers.hpp"
 #include "report/json/loads_json.hpp"
+#include "report/json/proof_json.hpp"
 #include "report/json/summary_json.hpp"
 #include "report/json/uncertainty_json.hpp"
 #include "report/names.hpp"
@@ -348,6 +349,7 @@ std::string to_json(const RunReport& report) {
                    {"operations", operations_json(report.operations)},
                    {"units", units_json(report.units)}};
   if (report.facts.guard) document["guard"] = guard_json(*report.facts.guard);
+  if (report.facts.proof) document["proof"] = proof_json(*report.facts.proof);
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   if (report.best_offsets) document["offsets"] = best_offsets_json(*report.best_offsets);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);
