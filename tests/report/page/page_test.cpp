@@ -16,10 +16,10 @@ using namespace counterflex::test;
 namespace {
 
 std::string page_of(const std::string& title, const std::vector<PageRun>& runs,
-                    const std::string& conclusion = "") {
+                    const std::string& conclusion = "", const std::string& sheet = "") {
   std::string page;
   write_page(
-      title, runs, [&](std::string_view part) { page += part; }, conclusion);
+      title, runs, [&](std::string_view part) { page += part; }, conclusion, sheet);
   return page;
 }
 
@@ -57,6 +57,47 @@ TEST_CASE("a page allows the scripts and styles that it holds, and nothing else"
   // Our own scripts have no addresses to load from; the libraries have those of their licences.
   CHECK_FALSE(contains(page, " src="));
   CHECK_FALSE(contains(page, "<link"));
+}
+
+TEST_CASE("a sheet adds itself, its style and the hash of the style to a page, and no other byte") {
+  const std::string sheet = "<article id=\"sheet\">T1</article>\n";
+  const std::string plain = page_of("part", {{"", "{}"}});
+  std::string page = page_of("part", {{"", "{}"}}, "", sheet);
+  const std::string style = contents(page, "<style>", "</style>").back();
+  CHECK(contains(style, "#sheet {"));
+  CHECK_FALSE(contains(plain, "#sheet"));
+  for (const std::string& added : {sheet, "<style>" + style + "</style>\n", " '" + integrity(style) + "'"}) {
+    const std::size_t at = page.find(added);
+    REQUIRE(at != std::string::npos);
+    page.erase(at, added.size());
+  }
+  CHECK(page == plain);
+}
+
+TEST_CASE("a sheet has no row left empty, escapes what it quotes, and counts what it has no room for") {
+  MadeUpRun run;
+  run.machine.name = "Mill <1>";
+  const Overview overview = overview_of(run.program);
+  run.facts.proof.emplace();
+  for (long tool = 1; tool <= 20; ++tool) {
+    run.facts.proof->tools.push_back({tool, 100.125, {}, {}});
+    run.facts.proof->restart.lines.push_back(
+        {static_cast<int>(tool), tool, "T" + std::to_string(tool), "G21"});
+  }
+  run.facts.proof->restart.lines.back().missing.clear();
+  run.facts.proof->offsets.push_back({"G54", {1, -2.5, 0}, {0, 0, 90}, {}});
+  const RunReport report = report_compensation(run.context(overview), run.tally({}), {});
+  const std::string sheet = proof_sheet(report);
+  CHECK(contains(sheet, "Mill &lt;1&gt;"));
+  CHECK_FALSE(contains(sheet, "<td></td>"));
+  CHECK(contains(sheet, "data-fact=\"serial\">not stated<"));
+  CHECK(contains(sheet, "<td>1, -2.5, 0</td><td>0, 0, 90</td><td>not stated</td><td>none</td>"));
+  CHECK(contains(sheet, "with the offset off by 0.01 mm"));
+  CHECK(contains(sheet, "<td>T7</td><td>100.125</td><td>not stated</td><td>none</td>"));
+  CHECK_FALSE(contains(sheet, "<td>T8</td><td>100.125</td>"));
+  CHECK(contains(sheet, "13 more tools"));
+  CHECK(contains(sheet, "13 more lines"));
+  CHECK(contains(sheet, "<tr><td>20</td><td>T20</td><td>yes</td></tr>\n<tr><td>1</td>"));
 }
 
 TEST_CASE("the data of a page is the report, with any characters") {
