@@ -106,6 +106,8 @@ void write_page(const std::string& title, const std::vector<PageRun>& runs, cons
       take(sheet);
     else if (line == "<!-- counterflex: data -->\n")
       write_data(runs, conclusion, take);
+    else if (line == "<!-- counterflex: offsets -->\n")
+      for (const PageRun& run : runs) take(run.offsets);
     else if (line == "<!-- counterflex: scripts -->\n")
       write_elements("script", page_scripts(), take);
     else

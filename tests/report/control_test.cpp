@@ -83,7 +83,7 @@ TEST_CASE("lines near the limit of the control are counted and give a warning") 
   const RunReport report = report_on(start, text);
   CHECK(report.control.lines->near == 1);
   CHECK(warnings_with(report, "one line of the corrected program has more than 90 % of the 255").size() == 1);
-  CHECK(warnings_with(report_on("G21\n", "G21\n"), "90 %").empty());
+  CHECK(warnings_with(report_on("G21\nG0 X0\n", "G21\nG0 X0\n"), "90 %").empty());
 }
 
 TEST_CASE("a path tolerance above the largest correction gives a warning with both numbers") {
@@ -94,12 +94,13 @@ TEST_CASE("a path tolerance above the largest correction gives a warning with bo
   CHECK(warned(0.0125, "the largest correction, 0.0125 mm, may vanish within the 0.05 mm that G64 allows"));
   CHECK(warned(0.3, "0.3000 mm, is more than the 0.05 mm that G64 allows: only smaller ones may vanish"));
   CHECK(warnings_with(report_on(original, original, 0), "largest correction").empty());
-  CHECK(warnings_with(report_on("G21\nG64\n", "G21\nG64\n", 0.3), "0.3000 mm, may vanish under G64 without P")
+  CHECK(warnings_with(report_on("G21\nG64\nG0 X0\n", "G21\nG64\nG0 X0\n", 0.3),
+                      "0.3000 mm, may vanish under G64 without P")
             .size() == 1);
 }
 
 TEST_CASE("path tolerances of inch programs are in mm, each different one once") {
-  const RunReport report = report_on("G20 G90\nG64 P0.002\nG64 P0.002\nG64 P0.001 Q0.001\n", "");
+  const RunReport report = report_on("G20 G90\nG64 P0.002\nG64 P0.002\nG64 P0.001 Q0.001\nG0 X0\n", "");
   REQUIRE(report.control.tolerances.size() == 2);
   CHECK(report.control.tolerances[0].path_mm == doctest::Approx(0.0508));
   CHECK_FALSE(report.control.tolerances[0].merge_mm.has_value());

@@ -55,6 +55,8 @@ struct Reading {
     w.segment = segment;
     w.line = line;
     w.cutting = cutting;
+    const auto is_it = [&](const Move& move) { return move.line == line; };
+    w.move = static_cast<std::uint32_t>(std::ranges::find_if(program.moves, is_it) - program.moves.begin());
     tally.add(w, miss_mm * mm, job);
   }
 };

@@ -37,9 +37,9 @@ struct ShiftFreedom {
   bool lengths = false;                        ///< tools after the first one of an offset get lengths
 };
 
-/// A place of a feed move, and what its command depends on.
+/// A place of a feed move or of a cycle (`is_place_of_cycle`), and what its command depends on.
 struct ShiftPlace {
-  std::size_t number = 0;  ///< of its waypoint among those of feed moves, from the beginning
+  std::size_t number = 0;  ///< of its waypoint among those that are taken, from the beginning
   int line = 0;
   TipPosition wanted;
   Vector3 command = Vector3::Zero();  ///< of the original program
@@ -51,9 +51,10 @@ struct ShiftPlace {
   Vector3 deviation = Vector3::Zero();
 };
 
-/// Takes the waypoints of feed moves in their order, and keeps a bounded number of them: the largest
-/// deviation for each work offset, tool, direction of the deviation, direction away from a contour and part
-/// of the workspace; and places all along the path. Where the program is cut into windows changes nothing.
+/// Takes the waypoints of feed moves and cycles in their order, and keeps a bounded number of them: the
+/// largest deviation for each work offset, tool, direction of the deviation, direction away from a contour
+/// and part of the workspace; and places all along the path. Where the program is cut into windows changes
+/// nothing.
 class ShiftPlaces {
  public:
   explicit ShiftPlaces(const ShiftFreedom& freedom) : freedom_(&freedom) {}
@@ -109,7 +110,7 @@ struct BestShift {
 /// The shift of frames whose offsets are shifted by `offsets`.
 ConstantShift shift_of(const ShiftFreedom& freedom, const BestShift& best);
 
-/// The shift that minimises the largest norm of the position deviation over all places of feed moves. Where
+/// The shift that minimises the largest norm of the position deviation over all places that are taken. Where
 /// several offsets share tools, first that of them together; then, with the lengths and radii found, that of
 /// each offset. The smallest change of several equally good ones.
 ///

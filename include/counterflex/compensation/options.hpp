@@ -109,9 +109,14 @@ struct Piece {
   bool end_only = false;
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
   bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
-  std::int32_t tool = 0;    ///< in the spindle, where there is no segment
+  std::size_t move = 0;     ///< index into Program::moves of the original, where there is no segment
   Directions directions{};  ///< at its end, where there is no segment
 };
+
+/// The move of the original program that a piece belongs to: an index into Program::moves.
+inline std::size_t move_of(const Job& job, const Piece& piece) {
+  return piece.segment == no_segment ? piece.move : job.path.segments[piece.segment].move;
+}
 
 /// Where a deviation comes from, and what it becomes without the force; as for a waypoint.
 struct Causes {
@@ -127,6 +132,7 @@ struct Causes {
 struct Waypoint {
   std::size_t segment = 0;  ///< or no_segment
   double fraction = 1;
+  std::uint32_t move = 0;  ///< index into Program::moves of the original
   int line = 0;
   bool cutting = false;
   bool between = false;  ///< a sample inside a piece
@@ -154,6 +160,13 @@ struct Waypoint {
 /// Whether `before` is known, and the causes where they were asked for. At other samples only `after` is.
 inline bool knows_before(const Waypoint& w) {
   return w.place || !w.between;
+}
+
+/// Whether it is the place of a cycle: the bottom of its hole, or the position at which it is called.
+inline bool is_place_of_cycle(const Program& program, const Waypoint& w) {
+  if (w.cutting || w.fraction != 1) return false;
+  const Move& move = program.moves[w.move];
+  return (w.segment == no_segment && move.cycle) || move.makes_hole || move.mills_at_end;
 }
 
 /// Whether it is the start of a feed run, under the force that acts there.

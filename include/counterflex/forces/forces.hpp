@@ -5,6 +5,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <variant>
 #include <vector>
 
@@ -106,7 +107,7 @@ struct ForceNote {
 };
 
 /// A feed move without a force, and why: no force is given, the given force is zero, or no force can act
-/// there; `length` is that of the move (m).
+/// there; `length` is that of the move (m), 0 for the hole of a cycle.
 struct Unforced {
   int line = 0;
   double length = 0;
@@ -157,6 +158,12 @@ struct ForceCursor {
   std::size_t corner = 0, ramp_corner = 0;  ///< corners behind a segment's start, and those a blend before
 };
 
+/// Whether a cycle drills a hole with a move, in a place that is known.
+inline bool drills(const Move& move) {
+  const bool makes_hole = move.cycle ? move.cycle->repeats > 0 : move.makes_hole;
+  return makes_hole && move.known_end[0] && move.known_end[1];
+}
+
 /// The side of a step on which a wrench is read. A place within 1e-9 of a segment from a step is at the
 /// step.
 enum class Side { before, after };
@@ -171,6 +178,10 @@ enum class Side { before, after };
 ///     F(s) = 1/b int_(s-b)^s f(u) du
 ///
 /// A feed run is a sequence of cutting segments that join, without a rapid between.
+///
+/// The hole of a cycle is not on the path. Its bottom has the wrench of a plunge with the move's feed,
+/// which is constant: the value of f there. Profiles, whose keys are places of the path, have none.
+/// Retracts have no force.
 class PathForces {
  public:
   /// `R_MT` gives the wanted orientation of the tool in the machine frame: one for all, one a segment, or for
@@ -180,9 +191,11 @@ class PathForces {
              const std::vector<Matrix3>& R_MT);
 
   /// The same for a window of a program, behind the one that has left `before`. `source` has been settled by
-  /// `ForceCover`.
+  /// `ForceCover`. `R_at_holes`: the tool's orientation at the hole of each move that `drills`, in order;
+  /// empty: the first of `R_MT`.
   PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
-             const std::vector<Matrix3>& R_MT, const ForceTail& before);
+             const std::vector<Matrix3>& R_MT, const ForceTail& before,
+             const std::vector<Matrix3>& R_at_holes = {});
 
   /// Whether what follows the window changes nothing in it: its last feed run has ended, or is long enough.
   bool is_final() const { return is_final_; }
@@ -190,11 +203,14 @@ class PathForces {
   /// What the next window needs.
   const ForceTail& tail() const { return tail_; }
 
-  /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves. Steps occur with blend 0 only. At the
-  /// ends of a segment the wrench is the segment's own for any `side`: `at(i, 1)` is that before a step
-  /// between two segments, `at(i + 1, 0)` that after it.
+  /// Wrench at `fraction` (0 to 1) of a segment; zero in rapid moves, but for the end of one at which a cycle
+  /// drills. Steps occur with blend 0 only. At the ends of a segment the wrench is the segment's own for any
+  /// `side`: `at(i, 1)` is that before a step between two segments, `at(i + 1, 0)` that after it.
   Vector6 at(std::size_t segment, double fraction, Side side = Side::after) const;
   Vector6 at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const;
+
+  /// Wrench at the bottom of the hole that a cycle drills with a move of the window; zero for other moves.
+  Vector6 in_hole(std::size_t move) const;
 
   /// Whether a segment is the first of its feed run.
   bool begins_run(std::size_t segment) const;
@@ -231,7 +247,8 @@ class PathForces {
   struct Place {
     double s0 = 0;
     double s1 = 0;
-    std::size_t run = 0;  ///< `no_run` for a rapid
+    std::size_t run = 0;   ///< `no_run` for a rapid
+    std::size_t move = 0;  ///< index into Program::moves
   };
 
   void take_up(const OpenRun& before);
@@ -245,6 +262,7 @@ class PathForces {
   std::vector<double> corners_;
   std::vector<FeedRun> runs_;
   std::vector<Place> places_;
+  std::vector<std::pair<std::size_t, Vector6>> holes_;  ///< by move, in order: those with a force
   std::vector<ForceNote> notes_;
   std::vector<Unforced> unforced_;
   ForceTail tail_;

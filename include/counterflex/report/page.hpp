@@ -19,7 +19,11 @@ struct PageRun {
   std::string loads = "null";    ///< as `loads_json` writes them
   std::string machine = "null";  ///< as `machine_json` writes it
   std::string source = "null";   ///< as `source_json` writes it
+  std::string offsets{};         ///< HTML as `offsets_html` writes it; empty: none were requested
 };
+
+/// The section of the best constant offsets, in the words of the terminal; empty without offsets.
+std::string offsets_html(const RunReport& report);
 
 /// The texts that the page shows beside the path: {"text": the original program, or null if it has more than
 /// `longest_program_text` bytes; "output": the absolute path of the corrected program, or null}.

@@ -204,14 +204,12 @@ class FeedTally {
   FeedMoves moves() const;
 
  private:
-  const Move* move_without_segment(const Waypoint& w, const Program& program);
   void add_measured(bool is_within);
 
   FeedMoves moves_;
   std::size_t known_lengths_ = 0;
   std::optional<std::size_t> segment_;  ///< of the last waypoint of a feed move
   bool missed_ = false;                 ///< that move misses the tolerance
-  std::size_t next_ = 0;                ///< moves before it have no more waypoints
 };
 
 // Feed moves that are cut without a force, gathered in memory that does not grow with their number.

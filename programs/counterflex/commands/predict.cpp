@@ -33,7 +33,7 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
   const std::optional<Failure> failure =
       predict_all(*run, tally, files, offsets ? &*offsets : nullptr, console);
   RunReport report = report_prediction(run->context(), tally, failure);
-  if (offsets && !report.error_kind) report.best_offsets = offsets->find(options, report, console);
+  if (offsets && !report.error_kind) report.best_offsets = offsets->find(options, report, tally, console);
   return deliver(options, *run, std::move(report), tally, files, console);
 }
 

@@ -229,9 +229,14 @@ void warn_of(const Overview& program, Command command, Console& console) {
 std::optional<Remark> remark_of_cycles(const Overview& program, const ForceSource& source, Command command) {
   const bool forces = !source.rules.empty() || program.commented_force;
   if (!program.first_cycle_line || !forces || source.scale == 0) return std::nullopt;
-  return Remark{*program.first_cycle_line, command == Command::forces
-                                               ? "holes of cycles have no force and are not listed"
-                                               : "holes of cycles are corrected without the cutting force"};
+  if (command == Command::forces)
+    return Remark{*program.first_cycle_line,
+                  "holes of cycles are not listed; each has the force of a plunge"};
+  const auto is_profile = [](const ForceRule& rule) {
+    return std::holds_alternative<ForceProfile>(rule.content);
+  };
+  if (std::none_of(source.rules.begin(), source.rules.end(), is_profile)) return std::nullopt;
+  return Remark{*program.first_cycle_line, "the rows of a force profile do not act in holes of cycles"};
 }
 
 ForceInput read_force_input(const Options& options) {

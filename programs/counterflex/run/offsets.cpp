@@ -34,6 +34,19 @@ void refuse_unknown_value(const Run& run, std::size_t frame) {
                   name));
 }
 
+// Places of cycles are not on the path that a run measures.
+void add_holes(const Job& window, const std::vector<Waypoint>& waypoints, DeviationTally& holes) {
+  for (const Waypoint& w : waypoints)
+    if (w.status == Status::converged && is_place_of_cycle(window.program, w))
+      holes.add({w.after, w.direction, w.tool_axis, 0, w.line, w.covariance ? &*w.covariance : nullptr});
+}
+
+DeviationStatistics with_holes(const DeviationTally& path, const DeviationTally& holes) {
+  DeviationTally all = path;
+  all.merge(holes);
+  return all.statistics();
+}
+
 }  // namespace
 
 OffsetSearch::OffsetSearch(Run& run) : run_(run), first_(freedom_) {
@@ -59,22 +72,30 @@ OffsetSearch::OffsetSearch(Run& run) : run_(run), first_(freedom_) {
   freedom_.lengths = !run.program.turns_tool;
 }
 
-std::optional<Failure> OffsetSearch::pass(const ConstantShift& shift, ShiftPlaces& found, RunTally* tally,
+void OffsetSearch::add(const Job& window, const std::vector<Waypoint>& waypoints) {
+  first_.add(window, waypoints);
+  add_holes(window, waypoints, first_holes_);
+}
+
+std::optional<Failure> OffsetSearch::pass(const ConstantShift& shift, ShiftPlaces& found, Rest* rest,
                                           Console& console) const {
   ProgramReader reader(run_.file.bytes, run_.program.file, run_.read);
   RunInput input = run_.input();
-  if (tally == nullptr) input.uncertainties = nullptr;  // bands are of the last pass
+  if (rest == nullptr) input.uncertainties = nullptr;  // bands are of the last pass
   JobWindows windows(input, reader);
   const auto read = [&](const Job& window) {
     const auto& segments = window.path.segments;
     console.solving(segments.empty() ? 0 : segments.front().line, run_.program.lines);
   };
   const auto begun = [&](const Job& window) {
-    if (tally != nullptr) tally->add_window(window);
+    if (rest != nullptr) rest->tally.add_window(window);
   };
   const auto solved = [&](const Job& window, const std::vector<Waypoint>& waypoints) {
     found.add(window, waypoints);
-    if (tally != nullptr) tally->add_waypoints(waypoints, window);
+    if (rest != nullptr) {
+      rest->tally.add_waypoints(waypoints, window);
+      add_holes(window, waypoints, rest->holes);
+    }
     console.solved(waypoints.size());
   };
   return predict_shifted_windows(windows, run_.options.threads, shift,
@@ -105,7 +126,9 @@ BestShift OffsetSearch::written(const ControlWords& control, const BestShift& be
     ChangedTool tool{number};
     const auto take = [&](std::map<long, double>& values, std::optional<double>& change) {
       const auto found = values.find(number);
-      if (found != values.end()) change = found->second = rounded_length(control, found->second);
+      if (found == values.end()) return;
+      found->second = rounded_length(control, found->second);
+      if (found->second != 0) change = found->second;
     };
     take(rounded.lengths, tool.length);
     take(rounded.radii, tool.radius);
@@ -170,13 +193,14 @@ bool OffsetSearch::is_enough(const RunTally& tally) const {
   });
 }
 
-BestOffsets OffsetSearch::find(const Options& options, const RunReport& report, Console& console) {
+BestOffsets OffsetSearch::find(const Options& options, const RunReport& report, const RunTally& before,
+                               Console& console) {
   const auto refuse = [&](const std::optional<Failure>& failure) {
     if (failure)
       throw InputError(failure->kind, {run_.program.file, failure->line},
                        "--offsets: with the shifted work offset: " + failure->what);
   };
-  if (first_.tools().empty() || !report.before)
+  if (first_.tools().empty())
     throw InputError(ErrorKind::program_text, {run_.program.file},
                      "--offsets: no feed move of the program has a known position, so there is nothing to "
                      "shift; run predict without --offsets to see why");
@@ -186,19 +210,19 @@ BestOffsets OffsetSearch::find(const Options& options, const RunReport& report, 
   BestShift best = best_shift(freedom_, first_, search, run_.options.threads, &*run_.starts);
   refuse(best.failure);
   BestOffsets result;
-  result.before = *report.before;
+  result.before = with_holes(before.path().measures().before, first_holes_);
   result.least_mm = best.largest / mm;
   const ControlWords control{run_.program.dialect, report.units.program, options.decimals};
   const BestShift rounded = written(control, best, result);
-  RunTally tally(run_.facts.min_block_ms);
-  ShiftPlaces rest(freedom_);
-  refuse(pass(shift_of(freedom_, rounded), rest, &tally, console));
+  Rest rest{RunTally(run_.facts.min_block_ms)};
+  ShiftPlaces places(freedom_);
+  refuse(pass(shift_of(freedom_, rounded), places, &rest, console));
   auto of = result.work.begin();
   for (std::size_t i = 0; i < offsets_.size(); ++i)
-    if (first_.has(i)) (of++)->rest_mm = rest.largest(i) / mm;
-  result.rest = tally.path().measures().after.statistics();
+    if (first_.has(i)) (of++)->rest_mm = places.largest(i) / mm;
+  result.rest = with_holes(rest.tally.path().measures().after, rest.holes);
   result.passes = best.passes + 1;
-  result.is_enough = is_enough(tally);
+  result.is_enough = is_enough(rest.tally);
   result.notes = notes(best);
   return result;
 }

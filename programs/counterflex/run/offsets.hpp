@@ -22,11 +22,11 @@ class OffsetSearch {
   OffsetSearch& operator=(const OffsetSearch&) = delete;
 
   /// The next waypoints of the prediction.
-  void add(const Job& window, const std::vector<Waypoint>& waypoints) { first_.add(window, waypoints); }
+  void add(const Job& window, const std::vector<Waypoint>& waypoints);
 
-  /// After a prediction without a failure, whose report is `report`. Throws `InputError` at a place that is
+  /// After a prediction without a failure, with its report and tally. Throws `InputError` at a place that is
   /// not solved with the shift, and (ErrorKind::program_text) if no feed move was solved.
-  BestOffsets find(const Options& options, const RunReport& report, Console& console);
+  BestOffsets find(const Options& options, const RunReport& report, const RunTally& before, Console& console);
 
  private:
   /// A work offset that the program uses.
@@ -37,7 +37,13 @@ class OffsetSearch {
     bool is_touched = false, is_stated = true;  ///< its datum
   };
 
-  std::optional<Failure> pass(const ConstantShift& shift, ShiftPlaces& found, RunTally* tally,
+  /// Of the last pass: what the shift leaves.
+  struct Rest {
+    RunTally tally;
+    DeviationTally holes{};
+  };
+
+  std::optional<Failure> pass(const ConstantShift& shift, ShiftPlaces& found, Rest* rest,
                               Console& console) const;
   BestShift written(const ControlWords& control, const BestShift& best, BestOffsets& result) const;
   std::vector<std::string> notes(const BestShift& best) const;
@@ -47,6 +53,7 @@ class OffsetSearch {
   std::vector<Offset> offsets_;
   ShiftFreedom freedom_;
   ShiftPlaces first_;
+  DeviationTally first_holes_;
 };
 
 }  // namespace counterflex::cli

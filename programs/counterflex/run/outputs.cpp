@@ -385,6 +385,7 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
   runs[0].loads = loads_json(report.loads);
   runs[0].machine = machine;
   runs[0].source = source_json(program, report);
+  runs[0].offsets = offsets_html(report);
   write_page(
       page_title(report), runs, [&](std::string_view part) { page_->write(part); }, "",
       report.facts.proof ? proof_sheet(report) : "");

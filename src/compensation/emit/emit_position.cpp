@@ -14,12 +14,12 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 }  // namespace
 
-// The correction at a wanted position without cutting force, as a shift (m) and a turn; the emission fails
-// without one.
+// The correction at a wanted position, as a shift (m) and a turn; the emission fails without one. Only in a
+// hole a cutting force acts.
 std::optional<Emitter::PositionCorrection> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
   const auto index = static_cast<std::size_t>(&move - job_.program.moves.data());
-  const TargetRequest request{&model, wanted, Vector6::Zero(), orientation_of(job_, move),
+  const TargetRequest request{&model, wanted, job_.forces.in_hole(index), orientation_of(job_, move),
                               directions_at(job_, index, 1, Side::before)};
   TargetAnswer answer;
   solver_.targets({&request, 1}, {&answer, 1});

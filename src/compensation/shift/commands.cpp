@@ -54,12 +54,8 @@ Vector3 tool_axis_at_home(const Model& model) {
 void shift_pieces(const Job& job, const ConstantShift& shift, std::vector<Piece>& pieces) {
   const Vector3 axis = tool_axis_at_home(job.model);
   for (Piece& piece : pieces) {
-    long tool = piece.tool;
-    double radius = 0;
-    if (piece.segment != no_segment) {
-      tool = job.program.moves[job.path.segments[piece.segment].move].tool;
-      radius = value_of(shift.radii, tool);
-    }
+    const long tool = job.program.moves[move_of(job, piece)].tool;
+    const double radius = piece.segment == no_segment ? 0 : value_of(shift.radii, tool);
     if (!shift.frames.empty()) {
       const Pose& by = shift.frames[piece.frame];
       piece.commanded = by * piece.commanded;

@@ -52,21 +52,21 @@ long cell_of(const Vector3& p) {
 
 void ShiftPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
-    if (!w.cutting || w.segment == no_segment || !w.place || w.status != Status::converged) continue;
-    const Segment& segment = job.path.segments[w.segment];
-    const Model& model = model_of(job, segment);
+    if (!(w.cutting && w.place) && !is_place_of_cycle(job.program, w)) continue;
+    if (w.status != Status::converged) continue;
+    const Move& move = job.program.moves[w.move];
     ShiftPlace place{.number = count_,
                      .line = w.line,
-                     .wanted = wanted_at(model, w),
-                     .command = original_command(job, segment.frame, w.p_MT),
+                     .wanted = wanted_at(model_with(job.model, job.tools, move.tool), w),
+                     .command = original_command(job, move.frame, w.p_MT),
                      .F = w.wrench,
                      .directions = w.directions,
-                     .frame = segment.frame,
-                     .tool = job.program.moves[segment.move].tool,
-                     .away = away_from_contour(job, w.segment, w.fraction),
+                     .frame = move.frame,
+                     .tool = move.tool,
                      .deviation = w.after.head<3>()};
+    if (w.segment != no_segment) place.away = away_from_contour(job, w.segment, w.fraction);
     at_platform_ = job.forces.at_platform();
-    const std::size_t offset = freedom_->offset_of_frame[segment.frame];
+    const std::size_t offset = freedom_->offset_of_frame[move.frame];
     if (std::find(tools_.begin(), tools_.end(), place.tool) == tools_.end()) tools_.push_back(place.tool);
     pairs_.insert({offset, place.tool});
     if (!place.away.isZero(0)) contours_.insert(place.tool);

@@ -109,13 +109,6 @@ FollowedPath follow_branch(const Job& job) {
 
 namespace {
 
-// The move that ends with the piece.
-const Move& move_of(const Job& job, const Piece& piece) {
-  if (piece.segment != no_segment) return job.program.moves[job.path.segments[piece.segment].move];
-  const auto& moves = job.program.moves;
-  return *std::find_if(moves.begin(), moves.end(), [&](const Move& move) { return move.line == piece.line; });
-}
-
 TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {
   if (piece.segment == no_segment)
     return {&model, piece.wanted, piece.R_wanted ? std::optional(*piece.R_wanted) : std::nullopt};
@@ -175,7 +168,7 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
   std::optional<PlaceSolver> solver;
   for (const Piece& piece : pieces) {
     if (piece.u1 != 1 || !piece.turn) continue;
-    const Move& move = move_of(job, piece);
+    const Move& move = job.program.moves[move_of(job, piece)];
     const StatedTurns turns = move.orientation ? move.orientation->stated_turns : StatedTurns::none;
     if (turns == StatedTurns::none) continue;
     const Model& model = model_with(job.model, job.tools, move.tool);

@@ -58,6 +58,10 @@ Vector3 bottom_of(const Move& move) {
   return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
 }
 
+Vector3 hole_of(const Move& move) {
+  return move.cycle ? bottom_of(move) : move.end_mm;
+}
+
 namespace {
 
 Piece piece_of_end(const Job& job, const Move& original, const Vector3& commanded, const Vector3& wanted) {
@@ -68,7 +72,7 @@ Piece piece_of_end(const Job& job, const Move& original, const Vector3& commande
           .commanded = {commanded, commanded, {}},
           .wanted = wanted,
           .end_only = true,
-          .tool = original.tool,
+          .move = move,
           .directions = directions_at(job, move, 1, Side::before)};
 }
 

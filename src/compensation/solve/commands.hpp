@@ -37,6 +37,9 @@ Vector3 wanted_of(const Job& job, const Move& move);
 /// The bottom of a cycle's hole in program coordinates (mm).
 Vector3 bottom_of(const Move& move);
 
+/// The place of the hole that a move drills, in program coordinates (mm): its bottom, or where it is called.
+Vector3 hole_of(const Move& move);
+
 /// The piece of the hole of `original`, whose bottom is that of `found`: the same move, or the one that was
 /// written for it.
 Piece piece_of_hole(const Job& job, const Move& original, const Move& found);

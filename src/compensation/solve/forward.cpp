@@ -23,6 +23,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   const Piece& piece = *sampled.piece;
   Waypoint w;
   w.segment = piece.segment;
+  w.move = static_cast<std::uint32_t>(move_of(job, piece));
   w.fraction = sample.u;
   w.line = piece.line;
   w.corrected_line = piece.corrected_line;
@@ -116,7 +117,7 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
 
 Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const Waypoint& w) {
   const SampledPiece& at = all.piece_of(s);
-  const long tool = at.segment != nullptr ? job.program.moves[at.segment->move].tool : at.piece->tool;
+  const long tool = job.program.moves[move_of(job, *at.piece)].tool;
   Failure failure = status_failure(
       job, w.status,
       {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target, all.requests[s].R, w.rho},

@@ -53,8 +53,9 @@ struct Slice : PieceSamples {
 };
 
 Vector6 force_at(Slice& slice, const PieceSample& sample) {
-  if (slice.pieces[sample.piece].segment == nullptr) return Vector6::Zero();
-  return slice.job.forces.at(slice.pieces[sample.piece].piece->segment, sample.u, sample.side, slice.cursor);
+  const SampledPiece& sampled = slice.pieces[sample.piece];
+  if (sampled.segment == nullptr) return slice.job.forces.in_hole(sampled.piece->move);
+  return slice.job.forces.at(sampled.piece->segment, sample.u, sample.side, slice.cursor);
 }
 
 Directions directions_of(const Slice& slice, const PieceSample& sample) {
@@ -180,8 +181,7 @@ void add_samples(Slice& slice, std::size_t t) {
 
 const Model& model_of(const Job& job, const Piece& piece) {
   if (job.tools == nullptr || job.tools->empty()) return job.model;
-  return piece.segment == no_segment ? model_with(job.model, job.tools, piece.tool)
-                                     : model_of(job, job.path.segments[piece.segment]);
+  return model_with(job.model, job.tools, job.program.moves[move_of(job, piece)].tool);
 }
 
 void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional<Vector3>& command) {

@@ -8,4 +8,7 @@ namespace counterflex {
 /// every move has home's; else several a segment, at equal fractions. `path` is that of `window`.
 std::vector<Matrix3> tool_orientations(const RunInput& input, const Program& window, const Toolpath& path);
 
+/// The same at the hole of each move that `drills`, in order.
+std::vector<Matrix3> tool_orientations_at_holes(const RunInput& input, const Program& window);
+
 }  // namespace counterflex

@@ -14,7 +14,10 @@ void JobWindows::build(JobWindow& window) const {
   ignore_axes(reader_.window(), input_.ignored);
   window.path = build_toolpath(reader_.window(), input_.frames, path_end_);
   const std::vector<Matrix3> R_MT = tool_orientations(input_, reader_.window(), window.path);
-  window.forces.emplace(input_.source, reader_.window(), window.path, R_MT, forces_);
+  const bool turns = R_MT.size() > 1;
+  window.forces.emplace(
+      input_.source, reader_.window(), window.path, R_MT, forces_,
+      turns ? tool_orientations_at_holes(input_, reader_.window()) : std::vector<Matrix3>{});
 }
 
 bool JobWindows::next(JobWindow& window) {

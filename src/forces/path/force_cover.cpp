@@ -85,13 +85,14 @@ struct ForceCover::State {
       const Move& move = window.moves[segment.move];
       if (segment.cutting && !in_air(source, move)) cover_segment(coverage, i, segment, move);
     }
+    // A hole needs no rule, but must not have two.
+    for (std::size_t m = 0; m < window.moves.size(); ++m)
+      if (drills(window.moves[m]) && !in_air(source, window.moves[m]))
+        cover_hole(coverage, m, window.moves[m]);
   }
 
   void cover_segment(Coverage& coverage, std::size_t i, const Segment& segment, const Move& move) {
-    if (platform != nullptr && move.force && !move.force->isZero(0))
-      fail_rule(*platform, fmt::format("acts at the platform, but the FORCE comment for line {} acts at the "
-                                       "tip; one run has its forces at one of the two places",
-                                       segment.line));
+    refuse_comment_beside_platform(move);
     if (!move.force)
       for (std::size_t k = 0; k < profiles.size(); ++k)
         profile_ends[k].add(coverage.keys(*profiles[k], i), segment);
@@ -101,6 +102,18 @@ struct ForceCover::State {
     const std::vector<ForceStretch>& stretches = coverage.stretches(i);
     if (std::none_of(stretches.begin(), stretches.end(), nothing)) return;
     if (uncovered++ == 0) first_uncovered = segment.line;
+  }
+
+  void cover_hole(Coverage& coverage, std::size_t m, const Move& move) const {
+    refuse_comment_beside_platform(move);
+    coverage.hole(m);
+  }
+
+  void refuse_comment_beside_platform(const Move& move) const {
+    if (platform != nullptr && move.force && !move.force->isZero(0))
+      fail_rule(*platform, fmt::format("acts at the platform, but the FORCE comment for line {} acts at the "
+                                       "tip; one run has its forces at one of the two places",
+                                       move.line));
   }
 
   void check() const {

@@ -122,18 +122,29 @@ PathForces::PathForces(const ForceSource& source, const Program& program, const 
     : PathForces(settled(source, program, path), program, path, R_MT, {}) {}
 
 PathForces::PathForces(const ForceSource& source, const Program& window, const Toolpath& path,
-                       const std::vector<Matrix3>& R_MT, const ForceTail& before)
+                       const std::vector<Matrix3>& R_MT, const ForceTail& before,
+                       const std::vector<Matrix3>& R_at_holes)
     : at_platform_(acts_at_platform(source)) {
   tail_.block_number = before.block_number;
   if (path.segments.empty() && !rapid_among(window, 0, window.moves.size())) tail_.open = before.open;
   RawForces raw_forces(source, window, path, R_MT, tail_.block_number);
   ForceRemarks remarks;
+  std::size_t next_move = 0, hole = 0;
+  const auto add_holes_to = [&](std::size_t end) {
+    for (; next_move < end; ++next_move) {
+      if (!drills(window.moves[next_move])) continue;
+      const Matrix3& R = R_at_holes.empty() ? R_MT.front() : R_at_holes[hole++];
+      const Vector6 F = raw_forces.in_hole(next_move, R, remarks);
+      if (!F.isZero(0)) holes_.emplace_back(next_move, F);
+    }
+  };
   places_.reserve(path.segments.size());
   pieces_.reserve(path.segments.size() + (before.open ? before.open->pieces.size() : 0));
   bool open = continues_run(before.open, window, path);
   if (open) take_up(*before.open);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
+    add_holes_to(segment.move);
     if (i > 0 && open && !joins_previous(window, path, i)) {
       close_run(source.blend);
       open = false;
@@ -142,9 +153,13 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
       runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, corners_.size(), 0});
       open = true;
     }
-    places_.push_back({segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run});
+    // A cycle of G-code drills away from the end of its move, one that is called drills there.
+    const bool calls = window.moves[segment.move].makes_hole;
+    places_.push_back(
+        {segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run, calls ? segment.move : no_run});
     if (open) raw_forces.append_to(i, runs_.back().first_piece, pieces_, remarks);
   }
+  add_holes_to(window.moves.size());
   notes_ = std::move(remarks.notes);
   unforced_ = std::move(remarks.unforced);
   if (!open) return;
@@ -212,6 +227,11 @@ void PathForces::find_corners(FeedRun& run) {
   run.end_corner = corners_.size();
 }
 
+Vector6 PathForces::in_hole(std::size_t move) const {
+  const auto found = std::ranges::lower_bound(holes_, move, {}, [](const auto& hole) { return hole.first; });
+  return found == holes_.end() || found->first != move ? Vector6::Zero() : found->second;
+}
+
 bool PathForces::begins_run(std::size_t segment) const {
   const std::size_t run = places_[segment].run;
   if (run == no_run) return false;
@@ -231,7 +251,7 @@ Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
 
 Vector6 PathForces::at(std::size_t segment, double fraction, Side side, ForceCursor& cursor) const {
   const Place& place = places_[segment];
-  if (place.run == no_run) return Vector6::Zero();
+  if (place.run == no_run) return fraction >= 1 ? in_hole(place.move) : Vector6::Zero();
   const FeedRun& run = runs_[place.run];
   if (fraction <= 0) side = Side::after;
   if (fraction >= 1) side = Side::before;

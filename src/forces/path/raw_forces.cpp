@@ -19,6 +19,9 @@ constexpr double parallel = 1e-6;
 
 constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
 constexpr std::string_view given_zero = "the force given for it is zero";
+constexpr std::string_view not_given = "no force is given for it";
+constexpr std::string_view not_in_holes = "the rows of a profile do not act in holes of cycles";
+constexpr std::string_view in_the_air = "it is wholly above --air-above";
 
 // Slopes closer than this give the same cutting force; number of places per piece of an arc where it is
 // computed.
@@ -51,6 +54,17 @@ bool loses(const ForcePiece& piece) {
 }
 bool keeps(const ForcePiece& piece) {
   return axial(piece.F0) || axial(piece.F1);
+}
+
+ForceNote loss_at(int line) {
+  return {line,
+          fmt::format("{}: of the force in the feed frame only the z component acts", no_lateral_direction)};
+}
+
+// The direction in which a cycle drills, axes of the work frame.
+Vector3 way_of_hole(const Move& move) {
+  const bool upwards = move.cycle && move.cycle->bottom_mm > move.cycle->retract_mm;
+  return (upwards ? 1 : -1) * Vector3::UnitZ();
 }
 
 }  // namespace
@@ -158,7 +172,7 @@ void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   };
   if (in_air(source_, program_.moves[segment.move])) {
     give_same(segment.s_start, segment.s_end, Vector6::Zero(), ForceFrame::machine);
-    stretch_.why = "it is wholly above --air-above";
+    stretch_.why = in_the_air;
     take(axes_in(ForceFrame::machine), true);
   } else {
     for (const ForceStretch& stretch : coverage_.stretches(i)) {
@@ -167,11 +181,32 @@ void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
       take(axes, stretch.from == 0);
     }
   }
-  if (lost)
-    remarks.notes.push_back({segment.line, fmt::format("{}: of the force in the feed frame only the z "
-                                                       "component acts",
-                                                       no_lateral_direction)});
+  if (lost) remarks.notes.push_back(loss_at(segment.line));
   if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
+}
+
+Vector6 RawForces::in_hole(std::size_t m, const Matrix3& R_MT, ForceRemarks& remarks) {
+  const Move& move = program_.moves[m];
+  const Matrix3& R_MW = path_.frames[move.frame].X_MW.R;
+  const Vector3 way = R_MW * way_of_hole(move);
+  GivenForce given = in_air(source_, move) ? GivenForce{.why = std::string(in_the_air)}
+                                           : given_in_hole(move, coverage_.hole(m), way.dot(R_MT.col(2)));
+  const ForceAxes axes = axes_of(given.frame, way, R_MW, R_MT);
+  const bool loses = axes.only_z && lateral(given.F);
+  if (loses) remarks.notes.push_back(loss_at(move.line));
+  const Vector6 F = source_.scale * in_machine_axes(axes, given.F);
+  if (given.why.empty() && F.isZero(0)) given.why = loses ? no_lateral_direction : given_zero;
+  if (!given.why.empty()) remarks.unforced.push_back({move.line, 0, std::move(given.why)});
+  return F;
+}
+
+RawForces::GivenForce RawForces::given_in_hole(const Move& move, const ForceStretch& by, double slope) const {
+  if (by.comment) return {.F = *move.force};
+  if (by.rule == nullptr) return {.why = std::string(coverage_.has_profiles() ? not_in_holes : not_given)};
+  if (const auto* force = std::get_if<ConstantForce>(&by.rule->content)) return {force->F, force->frame, {}};
+  const double feed_m_s = move.feed_mode == FeedMode::length ? move.feed_mm_min * mm / 60 : 0;
+  CutForce cut = cutting_force(std::get<CutResponse>(by.rule->content), feed_m_s, move.spindle_rpm, slope);
+  return {cut.F, ForceFrame::feed, std::move(cut.why)};
 }
 
 bool RawForces::is_zero(const StretchForce& given) const {
@@ -195,7 +230,7 @@ void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
   if (stretch.comment) return give_same(s0, s1, *program_.moves[segment.move].force, ForceFrame::machine);
   if (rule == nullptr) {
     give_same(s0, s1, Vector6::Zero(), ForceFrame::machine);
-    stretch_.why = "no force is given for it";
+    stretch_.why = not_given;
     return;
   }
   if (const auto* force = std::get_if<ConstantForce>(&rule->content))

@@ -62,6 +62,10 @@ class RawForces {
   void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
                  ForceRemarks& remarks);
 
+  /// The wrench at the bottom of the hole of a move that `drills`, whose tool has the orientation `R_MT`:
+  /// that of a plunge. Notes and lists it as `append_to` does a move.
+  Vector6 in_hole(std::size_t move, const Matrix3& R_MT, ForceRemarks& remarks);
+
  private:
   /// The force of a stretch in its own frame, or the reason why it has none.
   struct StretchForce {
@@ -69,6 +73,13 @@ class RawForces {
     ForceFrame frame = ForceFrame::machine;
     std::string why{};  ///< empty if a force is given (it may be zero)
   };
+  /// The force in a hole in its own frame, or the reason why it has none.
+  struct GivenForce {
+    Vector6 F = Vector6::Zero();
+    ForceFrame frame = ForceFrame::machine;
+    std::string why{};
+  };
+  GivenForce given_in_hole(const Move& move, const ForceStretch& by, double slope) const;
   void give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes);
   void give_same(double s0, double s1, const Vector6& F, ForceFrame frame);
   void give_cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes);

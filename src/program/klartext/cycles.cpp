@@ -68,6 +68,12 @@ struct ParameterWord {
   AxisWord word;
 };
 
+bool names(const KlartextBlock& block, std::string_view parameter, const KlartextReading& r) {
+  return std::any_of(block.parts.begin(), block.parts.end(), [&](const Span& line) {
+    return part(r.program.text, line).find(parameter) != std::string_view::npos;
+  });
+}
+
 /// The value of the parameter `name` in the block; empty if it is not a plain number.
 std::optional<ParameterWord> parameter_of(std::string_view name, const KlartextBlock& block,
                                           const KlartextReading& r) {
@@ -98,13 +104,23 @@ std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const Klar
   return KlartextSurface{found->value_mm, found->word, true};
 }
 
+/// Boring upwards, milling of holes, and tapping with the feed of the spindle: their Q206 is none of a
+/// plunge.
+bool plunges(int cycle) {
+  return counts_from_surface(cycle) && cycle != 204 && cycle != 207 && cycle != 208 && cycle != 209;
+}
+
+/// Q206 of the block, in mm/min.
+void read_plunging_feed(const KlartextBlock& block, KlartextReading& r) {
+  const auto found = parameter_of("Q206", block, r);
+  const bool known = found && r.state.unit == LengthUnit::millimetres && !r.state.feed_per_turn;
+  r.state.plunging_feed_mm_min = known ? std::max(found->value_mm, 0.0) : 0;
+}
+
 /// Q200 and Q204 of the block.
 void read_clearances(const KlartextBlock& block, KlartextReading& r, bool followed) {
   const auto read = [&](std::string_view name, std::optional<double>& clearance_mm) {
-    const bool named = std::any_of(block.parts.begin(), block.parts.end(), [&](const Span& line) {
-      return part(r.program.text, line).find(name) != std::string_view::npos;
-    });
-    if (!named) return;
+    if (!names(block, name, r)) return;
     const auto found = parameter_of(name, block, r);
     clearance_mm = followed && found ? std::optional(found->value_mm) : std::nullopt;
   };
@@ -179,7 +195,9 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   r.state.takes_surface = counts_from_surface(cycle) && runs_once;
   r.state.clearance_mm.reset();
   r.state.second_clearance_mm.reset();
+  r.state.plunging_feed_mm_min = 0;
   if (!r.state.takes_surface) return;
+  if (plunges(cycle)) read_plunging_feed(block, r);
   r.state.surface = surface_of(block, r);
   if (r.state.surface) r.state.surface->of_definition = true;
   read_clearances(block, r, true);
@@ -200,6 +218,7 @@ bool take_hole(KlartextReading& r, Move& move) {
   move.may_split = move.may_jump = false;
   move.makes_hole = move.takes_no_z = true;
   move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
+  move.feed_mm_min = state.plunging_feed_mm_min;
   if (!end_is_known) move.handling = Handling::held;
   const bool first = std::exchange(surface.just_set, false);
   // The whole definition could be repeated before a hole, but it would end M89 and set its other parameters
@@ -223,6 +242,12 @@ void read_cycle_parameter(const KlartextBlock& block, KlartextReading& r) {
   const bool followed = r.state.takes_surface && empty(block.block_delete) && !may_skip_or_repeat(r) &&
                         r.state.displacements.empty();
   read_clearances(block, r, followed);
+  if (r.state.plunging_feed_mm_min > 0 && names(block, "Q206", r)) {
+    if (followed)
+      read_plunging_feed(block, r);
+    else
+      r.state.plunging_feed_mm_min = 0;
+  }
   if (part(r.program.text, block.parts[0]).find("203") == std::string_view::npos) return;
   r.state.surface = followed ? surface_of(block, r) : std::nullopt;
 }

@@ -108,7 +108,9 @@ void read_nothing(const KlartextBlock&, KlartextReading&) {}
 void read_parameter(const KlartextBlock& block, KlartextReading& r) {
   take_parameter(block, r);
   if (block.head == "Q") return read_cycle_parameter(block, r);
-  if (after_head(r.program.text, block).find("203") != std::string_view::npos) r.state.surface.reset();
+  const std::string_view computed = after_head(r.program.text, block);
+  if (computed.find("203") != std::string_view::npos) r.state.surface.reset();
+  if (computed.find("206") != std::string_view::npos) r.state.plunging_feed_mm_min = 0;
 }
 
 void read_end(const KlartextBlock&, KlartextReading& r) {
@@ -240,6 +242,7 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& r, std::st
 void call_relative_cycle(const KlartextBlock& block, KlartextReading& r, Move& move) {
   if (r.state.cycle_returns) {
     move.makes_hole = true;
+    if (move.motion == Motion::rapid) move.feed_mm_min = 0;  // that of the definition is not read
     return note_uncorrected(r, block.line, "holes are held");
   }
   move.mills_at_end = true;

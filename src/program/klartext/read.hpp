@@ -60,6 +60,7 @@ struct KlartextState {
   bool calls_each = false;                 ///< M89: every move ends with the cycle, until M99
   /// Q200 and Q204 of that cycle, above the surface.
   std::optional<double> clearance_mm, second_clearance_mm;
+  double plunging_feed_mm_min = 0;            ///< Q206 of that cycle; 0: it does not drill, or not known
   std::optional<KlartextSurface> surface;     ///< surface of that cycle, if all of it shifts with the surface
   std::optional<CornerSize> corner;           ///< RND or CHF before the next move
   bool contour = false;                       ///< RL or RR is active

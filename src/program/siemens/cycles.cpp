@@ -31,8 +31,10 @@ constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
                                                        {"CYCLE76", 8, 20},
                                                        {"CYCLE77", 6, 16}}};
 
+constexpr std::string_view modal_call = "MCALL";
+
 // Indices in the argument list.
-constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5;
+constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5, bore_feed = 6;
 
 /// The name of a call and the spans of its arguments, without blanks.
 struct ArgumentList {
@@ -125,10 +127,21 @@ void stop_modal_cycle(Reading& r) {
   r.state.displaced |= modal_macro;
 }
 
-void make_hole(const CalledCycle& cycle, Reading& r, Move& move) {
+/// The feed (mm/min) with which a call drills: F, or FFR of CYCLE85. 0: not known. Taps follow the spindle.
+double plunging_feed(std::string_view statement, double feed_mm_min) {
+  const auto call = call_at(statement, 0, statement.size());
+  if (!call || is_word(call->name, "CYCLE84") || is_word(call->name, "CYCLE840")) return 0;
+  if (!is_word(call->name, "CYCLE85")) return feed_mm_min;
+  if (call->arguments.size() <= bore_feed) return 0;
+  const auto feed = number_at(statement, *call, bore_feed);
+  return feed ? std::max(feed->value, 0.0) : 0;
+}
+
+void make_hole(const CalledCycle& cycle, std::string_view statement, Reading& r, Move& move) {
   move.called = cycle;
   move.makes_hole = move.takes_no_z = true;
   move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
+  move.feed_mm_min = plunging_feed(statement, move.feed_mm_min);
   // The heights are absolute, also under G91.
   if (move.relative) move.incremental = 3;
   move.relative = false;
@@ -143,7 +156,7 @@ Move& start_call(const CalledCycle& cycle, const Block& block, Reading& r) {
   Move& move = start_move(block, r, Motion::rapid);
   for (const Word& word : block.words)
     if (word.letter == 'N') move.block_number = count_of(word);
-  make_hole(cycle, r, move);
+  make_hole(cycle, part(r.program.text, block.statement_text), r, move);
   return move;
 }
 
@@ -208,12 +221,11 @@ std::optional<CalledCycle> drilling_cycle(const Block& block, const Reading& r) 
 }
 
 std::optional<CalledCycle> modal_drilling_cycle(std::string_view statement) {
-  constexpr std::string_view name = "MCALL";
   const std::string_view line = statement.substr(0, statement.find(';'));
-  if (line.size() <= name.size() || !is_word(line.substr(0, name.size()), name) ||
-      !is_blank(line[name.size()]))
+  if (line.size() <= modal_call.size() || !is_word(line.substr(0, modal_call.size()), modal_call) ||
+      !is_blank(line[modal_call.size()]))
     return std::nullopt;
-  const Span call = trimmed(line, {name.size(), line.size()});
+  const Span call = trimmed(line, {modal_call.size(), line.size()});
   auto cycle = drilling_at(line, call);
   if (cycle) cycle->modal = std::string(line.substr(0, call.end));
   return cycle;
@@ -254,7 +266,7 @@ bool takes_modal_hole(const Block& block, Reading& r) {
 }
 
 void place_modal_hole(Reading& r, Move& move) {
-  make_hole(*r.called, r, move);
+  make_hole(*r.called, std::string_view(r.called->modal).substr(modal_call.size()), r, move);
 }
 
 void end_called_hole(Reading& r) {

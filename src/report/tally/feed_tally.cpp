@@ -55,7 +55,6 @@ void FeedTally::add_window(const Job& window) {
     if (segment.cutting) moves_.length_mm += length(segment.wanted) / mm;
   }
   segment_.reset();
-  next_ = 0;
 }
 
 void FeedTally::add_measured(bool is_within) {
@@ -65,19 +64,9 @@ void FeedTally::add_measured(bool is_within) {
 void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
   if (w.status != Status::converged) return;
   const bool is_within = miss <= window.options.tolerance;
-  const Move* move = nullptr;
-  if (w.segment == no_segment) {
-    move = move_without_segment(w, window.program);
-  } else {
-    next_ = window.path.segments[w.segment].move;
-    move = &window.program.moves[next_];
-  }
-  // Of the move to a hole only the end counts, where the cycle is called.
-  const bool hole =
-      move != nullptr && (w.segment == no_segment ? move->cycle || cuts_at_end(*move)
-                                                  : cuts_at_end(*move) && !w.cutting && w.fraction == 1);
+  const bool hole = is_place_of_cycle(window.program, w);
   if (!w.cutting && !hole) {
-    const bool feed = w.segment == no_segment && move != nullptr && move->motion == Motion::feed;
+    const bool feed = w.segment == no_segment && window.program.moves[w.move].motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);
     return;
   }
@@ -95,17 +84,6 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
   missed_ = true;
   --moves_.within;
   ++moves_.missed;
-}
-
-// A hole, or the first known position: both are solved at their end only.
-const Move* FeedTally::move_without_segment(const Waypoint& w, const Program& program) {
-  for (std::size_t m = next_; m < program.moves.size(); ++m) {
-    const Move& move = program.moves[m];
-    if (move.line != w.line || (!move.cycle && all_known(move.known_start))) continue;
-    next_ = m + 1;
-    return &move;
-  }
-  return nullptr;
 }
 
 FeedMoves FeedTally::moves() const {

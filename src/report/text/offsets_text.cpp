@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include "counterflex/report/page.hpp"
+#include "report/plot/svg.hpp"
 #include "report/text/report_text.hpp"
 
 namespace counterflex {
 namespace {
+
+constexpr std::string_view offsets_title = "Best constant offsets";
 
 std::string change_of(const BestOffsets::OfTool& tool) {
   std::string text = tool.tool == 0 ? "the tool without a number:" : fmt::format("T{}:", tool.tool);
@@ -28,9 +32,11 @@ std::vector<ChangeInWords> changes_in_words(const BestOffsets& best) {
 }
 
 std::string rest_in_words(const BestOffsets& best, double tolerance_mm) {
-  std::string text = fmt::format("leaves {}{} mm of {} (rms {} of {}), line {}", mm4(best.rest.max_mm),
-                                 band_text(best.rest), mm4(best.before.max_mm), mm4(best.rest.rms_mm),
-                                 mm4(best.before.rms_mm), best.rest.max_line);
+  std::string text = fmt::format("leaves {}{} mm of {}", mm4(best.rest.max_mm), band_text(best.rest),
+                                 mm4(best.before.max_mm));
+  if (best.before.rms_mm > 0)  // a program of holes has no cutting length
+    text += fmt::format(" (rms {} of {})", mm4(best.rest.rms_mm), mm4(best.before.rms_mm));
+  text += fmt::format(", line {}", best.rest.max_line);
   if (best.is_enough)
     return text +
            fmt::format("; within the tolerance of {} mm: no corrected program is needed", mm4(tolerance_mm));
@@ -41,23 +47,50 @@ std::string rest_in_words(const BestOffsets& best, double tolerance_mm) {
                 "compensate the program");
 }
 
+std::vector<std::string> remarks_in_words(const BestOffsets& best) {
+  std::vector<std::string> remarks;
+  if (best.work.size() > 1)
+    for (const BestOffsets::OfWork& of : best.work)
+      remarks.push_back(fmt::format("{}: largest {} mm, with the shifts {} mm", of.work, mm4(of.before_mm),
+                                    mm4(of.rest_mm)));
+  remarks.push_back(fmt::format("the least largest deviation of exact numbers is {} mm", mm4(best.least_mm)));
+  remarks.insert(remarks.end(), best.notes.begin(), best.notes.end());
+  return remarks;
+}
+
 std::string offsets_text(const RunReport& report, const Ink& ink) {
   const auto& best = report.best_offsets;
   if (!best) return "";
   std::string text =
-      line_break() + ink.bold("Best constant offsets") + ", added to the values of the control\n";
+      line_break() + ink.bold(std::string(offsets_title)) + ", added to the values of the control\n";
   for (const ChangeInWords& row : changes_in_words(*best)) {
     text += wrapped("  ", row.change, 4);
     for (const std::string& words : row.words) text += "    " + without_controls(words) + "\n";
   }
   text += wrapped("  ", rest_in_words(*best, report.tolerance_mm), 4);
-  if (best->work.size() > 1)
-    for (const BestOffsets::OfWork& of : best->work)
-      text += before_after_row(fmt::format("largest of {}: before, and with it", of.work), mm4(of.before_mm),
-                               mm4(of.rest_mm));
-  text += fmt::format("  the least largest deviation of exact numbers is {} mm\n", mm4(best->least_mm));
-  for (const std::string& note : best->notes) text += wrapped("  ", note, 4);
+  for (const std::string& remark : remarks_in_words(*best)) text += wrapped("  ", remark, 4);
   return text;
+}
+
+std::string offsets_html(const RunReport& report) {
+  const auto& best = report.best_offsets;
+  if (!best) return "";
+  const auto shown = [](const std::string& text) { return xml_escaped(without_controls(text)); };
+  std::string html = fmt::format(
+      "  <section id=\"offsets\" data-short=\"Offsets\" aria-labelledby=\"offsets-title\"><h2 "
+      "id=\"offsets-title\">{}</h2><div class=\"place-card\">\n"
+      "  <p>Added to the values of the control:</p>\n",
+      offsets_title);
+  for (const ChangeInWords& row : changes_in_words(*best)) {
+    html += "  <p class=\"cause\">" + shown(row.change) + "</p>\n";
+    if (row.words.empty()) continue;
+    html += "  <pre><code>";
+    for (const std::string& words : row.words) html += shown(words) + "\n";
+    html += "</code></pre>\n";
+  }
+  html += "  <p>" + shown(rest_in_words(*best, report.tolerance_mm)) + "</p>\n  <ul>\n";
+  for (const std::string& remark : remarks_in_words(*best)) html += "  <li>" + shown(remark) + "</li>\n";
+  return html + "  </ul></div></section>\n";
 }
 
 }  // namespace counterflex

@@ -18,6 +18,9 @@ std::vector<ChangeInWords> changes_in_words(const BestOffsets& best);
 /// "leaves 0.0041 mm of 0.0512 mm, ...: no corrected program is needed".
 std::string rest_in_words(const BestOffsets& best, double tolerance_mm);
 
+/// Sentences about each of several offsets, the exact numbers, and what was not changed.
+std::vector<std::string> remarks_in_words(const BestOffsets& best);
+
 /// The section of all details; empty without offsets.
 std::string offsets_text(const RunReport& report, const Ink& ink);
 

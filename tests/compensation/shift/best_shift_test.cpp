@@ -20,7 +20,7 @@ std::vector<Waypoint> shifted(const Order& order, const ConstantShift& shift, st
   WindowShop shop(order, least_moves);
   WindowRun run;
   REQUIRE_FALSE(predict_shifted_windows(*shop.windows, order.threads, shift, events_for(run)));
-  std::erase_if(run.waypoints, [](const Waypoint& w) { return !w.place; });
+  std::erase_if(run.waypoints, [](const Waypoint& w) { return w.between && !w.place; });
   return run.waypoints;
 }
 
@@ -38,6 +38,14 @@ double largest(const std::vector<Waypoint>& waypoints) {
   double size = 0;
   for (const Waypoint& w : waypoints)
     if (w.cutting) size = std::max(size, w.after.head<3>().norm());
+  return size;
+}
+
+/// Holes have no segment; the first position, which has none either, is 15 mm above the machine's zero.
+double largest_with_holes(const std::vector<Waypoint>& waypoints) {
+  double size = largest(waypoints);
+  for (const Waypoint& w : waypoints)
+    if (w.segment == no_segment && w.p_MT.z() < 10 * mm) size = std::max(size, w.after.head<3>().norm());
   return size;
 }
 
@@ -241,6 +249,31 @@ elements = [
   REQUIRE(found.best.lengths.size() == 1);
   CHECK(std::abs(found.best.lengths.at(2) - 1e-4) < 1e-8);
   CHECK(largest(found.rest) < 1e-8);
+}
+
+TEST_CASE("the places of cycles count in the search as those of feed moves") {
+  Order order{.machine = displaced_gantry(),
+              .text = "G21 G90 G54\nG0 X0 Y0 Z5\nG81 X5 Y5 Z-1 R2 F100\nX50 Y70\nG80\nM30\n"};
+  CHECK((found_shift(order, one_offset()).best.offsets[0].p - shift_mm * mm).norm() < 1e-9);
+
+  // Holes far from a short cut: the shift is the best one of all, not that of the cut.
+  const std::string cut = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z-1 F600\nX10\nY10\nG0 Z5\n";
+  const std::string cycles = "G81 X150 Y80 Z-9 R2\nX-90 Y120\nG80\nM30\n";
+  const std::string plunges = "G0 X150 Y80\nG0 Z2\nG1 Z-9\nG0 Z5\nG0 X-90 Y120\nG0 Z2\nG1 Z-9\nG0 Z5\nM30\n";
+  const Found drilled = found_shift(skewed(cut + cycles), one_offset());
+  const Found only_cut = found_shift(skewed(cut + "M30\n"), one_offset());
+  CHECK(drilled.best.largest > 3 * only_cut.best.largest);
+  CHECK(drilled.best.largest == doctest::Approx(largest_with_holes(drilled.rest)).epsilon(1e-9));
+  std::mt19937 random(6);
+  std::normal_distribution<double> normal;
+  for (int i = 0; i < 60; ++i) {
+    const Vector3 near = std::pow(10.0, -4 - i % 4) * Vector3(normal(random), normal(random), normal(random));
+    const Vector3 p = drilled.best.offsets[0].p + near;
+    CHECK(largest_with_holes(shifted(skewed(cut + cycles), moved_by(translation(p)))) >
+          drilled.best.largest - 0.01 * um);
+  }
+  // The way down to a hole is a part of the cut in feed moves alone: this deviation grows with the height.
+  CHECK(found_shift(skewed(cut + plunges), one_offset()).best.largest > drilled.best.largest - 0.01 * um);
 }
 
 TEST_CASE("offsets that share no place each get their own least deviation") {

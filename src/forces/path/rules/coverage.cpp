@@ -92,7 +92,8 @@ const std::vector<ForceStretch>& Coverage::stretches(std::size_t i) {
   const Segment& segment = path_.segments[i];
   const Move& move = window_.moves[segment.move];
   const ForceRule* rest = by_kind(move);
-  claim(i);
+  claim(segment.move);
+  for (const ForceRule* rule : profiles_) claim_rows(*rule, i);
   stretches_.clear();
   if (claims_.size() == 1 && claims_[0].least <= 0 && claims_[0].most >= 1) {  // nearly always
     stretches_.push_back({0, 1, claims_[0].rule, claims_[0].rule == nullptr});
@@ -115,6 +116,15 @@ const std::vector<ForceStretch>& Coverage::stretches(std::size_t i) {
   for (std::size_t k = 0; k < stretches_.size(); ++k) stretches_[k].from = k == 0 ? 0 : stretches_[k - 1].to;
   stretches_.back().to = 1;
   return stretches_;
+}
+
+ForceStretch Coverage::hole(std::size_t m) {
+  const Move& move = window_.moves[m];
+  const ForceRule* rest = by_kind(move);
+  claim(m);
+  settle(move.line);
+  if (claims_.empty()) return {0, 1, rest, false};
+  return {0, 1, claims_.front().rule, claims_.front().rule == nullptr};
 }
 
 const KeySpan& Coverage::keys(const ForceRule& profile, std::size_t i) const {
@@ -143,20 +153,20 @@ const std::string& Coverage::operation_of(const Move& move) {
   return folded_operation_;
 }
 
-void Coverage::claim(std::size_t i) {
-  const Move& move = window_.moves[path_.segments[i].move];
+// By what is not a profile.
+void Coverage::claim(std::size_t m) {
+  const Move& move = window_.moves[m];
   claims_.clear();
   if (move.force) claims_.push_back({});
   if (index_.by_range()) {
     found_.clear();
-    const std::optional<long> n = numbers_.empty() ? std::nullopt : numbers_[path_.segments[i].move];
+    const std::optional<long> n = numbers_.empty() ? std::nullopt : numbers_[m];
     index_.append_by_place(move, operation_of(move), n, found_);
     for (const ForceRule* rule : found_) {
       claims_.emplace_back();
       claims_.back().rule = rule;
     }
   }
-  for (const ForceRule* rule : profiles_) claim_rows(*rule, i);
 }
 
 void Coverage::claim_rows(const ForceRule& rule, std::size_t i) {
@@ -216,7 +226,10 @@ void Coverage::refuse(const Claim& a, const Claim& b, int line) const {
 }
 
 bool in_air(const ForceSource& source, const Move& move) {
-  return source.air_above_mm && extent_of(move).least.z() > *source.air_above_mm;
+  if (!source.air_above_mm) return false;
+  if (!drills(move)) return extent_of(move).least.z() > *source.air_above_mm;
+  // How deep a called cycle drills is not known.
+  return move.cycle && std::min(move.cycle->bottom_mm, move.cycle->retract_mm) > *source.air_above_mm;
 }
 
 }  // namespace counterflex

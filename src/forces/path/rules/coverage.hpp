@@ -30,6 +30,10 @@ class Coverage {
   /// two rules of equal rank cover it.
   const std::vector<ForceStretch>& stretches(std::size_t i);
 
+  /// The rule or comment that acts in the hole of a move: a profile does not. Throws as `stretches`.
+  ForceStretch hole(std::size_t move);
+  bool has_profiles() const { return !profiles_.empty(); }
+
   /// The keys of a profile over segment i.
   const KeySpan& keys(const ForceRule& profile, std::size_t i) const;
 
@@ -44,7 +48,7 @@ class Coverage {
   };
   const ForceRule* by_kind(const Move& move);
   const std::string& operation_of(const Move& move);
-  void claim(std::size_t i);
+  void claim(std::size_t move);
   void claim_rows(const ForceRule& rule, std::size_t i);
   void settle(int line);
   [[noreturn]] void refuse(const Claim& a, const Claim& b, int line) const;
@@ -68,7 +72,7 @@ class Coverage {
   std::vector<ForceStretch> stretches_;
 };
 
-/// Whether the whole move is above --air-above of the source.
+/// Whether the whole move, with the hole of its cycle, is above --air-above of the source.
 bool in_air(const ForceSource& source, const Move& move);
 
 }  // namespace counterflex

@@ -22,15 +22,13 @@ void RulesInUse::add(const Program& window, const Toolpath& path) {
   kinds_.clear();
   last_kind_.reset();
   std::size_t next = 0;
-  const auto count_to = [&](std::size_t end) {
-    for (; next < end; ++next)
-      if (const auto& n = window.moves[next].block_number) block_number_ = n;
-  };
-  for (const Segment& segment : path.segments) {
-    count_to(segment.move + 1);
-    if (segment.cutting) see(window, window.moves[segment.move]);
+  for (std::size_t m = 0; m < window.moves.size(); ++m) {
+    const Move& move = window.moves[m];
+    if (move.block_number) block_number_ = move.block_number;
+    const bool has_segment = next < path.segments.size() && path.segments[next].move == m;
+    if ((has_segment && path.segments[next].cutting) || drills(move)) see(window, move);
+    if (has_segment) ++next;
   }
-  count_to(window.moves.size());
 }
 
 void RulesInUse::see(const Program& window, const Move& move) {
