@@ -1,6 +1,8 @@
 #pragma once
 /// Programs of any length on a machine, window by window: predict, compensate and verify.
+#include <cstddef>
 #include <functional>
+#include <vector>
 
 #include "counterflex/compensation/options.hpp"
 #include "counterflex/program/program_reader.hpp"
@@ -71,6 +73,9 @@ struct RunInput {
   Directions first_directions{};                    ///< of actuators before they have moved:
                                                     ///< `first_directions`
   const TipUncertainties* uncertainties = nullptr;  ///< as for a job
+  /// Wanted turn about the spindle axis at the end of each move of the program (rad), by its number; see
+  /// `SpinSearch`. None: as programmed.
+  const std::vector<double>* spins = nullptr;
 };
 
 /// A window with its path and forces. It does not change while others are read.
@@ -102,6 +107,7 @@ class JobWindows {
 
   const RunInput input_;
   ProgramReader& reader_;
+  std::size_t moves_ = 0;  // before the window
   PathEnd path_end_{};
   ForceTail forces_{};
   std::optional<TipPosition> tip_{};

@@ -161,15 +161,18 @@ struct MoveOrientation {
   SpindleAxis spindle_axis = SpindleAxis::z;     ///< of the tool frame that the numbers turn
   OrientationNumbers start{}, end{};
   std::array<PackedAxisWord, 4> words;  ///< of the block, by number
+  /// Turn about the spindle axis that is wanted beside the numbers, at the start and at the end (rad): see
+  /// `SpinSearch`. The text does not have it.
+  double start_spin = 0, end_spin = 0;
 };
 
-/// How the control's tool frame turns along the move.
+/// How the control's tool frame should turn along the move.
 Turn written_turn_of(const MoveOrientation& orientation);
 
-/// How the tool frame with z from the tip to the spindle turns along the move.
+/// How the tool frame with z from the tip to the spindle should turn along the move.
 Turn turn_of(const MoveOrientation& orientation);
 
-/// The numbers that the original has at fraction `u` of the move.
+/// The numbers of the wanted orientation at fraction `u` of the move.
 OrientationNumbers numbers_at(const MoveOrientation& orientation, double u);
 
 /// The zone at a target of a robot, within which the control rounds the path: of a statement whose zone

@@ -164,6 +164,20 @@ std::optional<Failure> stated_failure(StatedTurns turns, const Travel& travel, d
 
 }  // namespace
 
+bool keeps_stated_turns(StatedTurns turns, const Mechanism& mechanism, const Eigen::VectorXd& from,
+                        const Eigen::VectorXd& to, double room) {
+  if (turns == StatedTurns::none) return true;
+  int ordinal = 0;
+  for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
+    if (mechanism.travel[i].kind != JointKind::revolute || !is_stated(turns, ++ordinal)) continue;
+    const auto k = static_cast<Eigen::Index>(i);
+    const double begin = std::remainder(from[k], 2 * pi), end = begin + to[k] - from[k];
+    for (const double side : {-room, room})
+      if (stated(turns, end + side) != stated(turns, begin)) return false;
+  }
+  return true;
+}
+
 std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Piece>& pieces) {
   std::optional<PlaceSolver> solver;
   for (const Piece& piece : pieces) {

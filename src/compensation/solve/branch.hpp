@@ -27,6 +27,11 @@ struct FollowedPath {
 /// within 1 degree of another configuration.
 FollowedPath follow_branch(const Job& job);
 
+/// Whether the rotary axes of an arm keep what a target states of their turns if they go from `from` to `to`,
+/// by `room` (rad): values that the control shows, counted on from `from` to `to`.
+bool keeps_stated_turns(StatedTurns turns, const Mechanism& mechanism, const Eigen::VectorXd& from,
+                        const Eigen::VectorXd& to, double room);
+
 /// The failure of the first commanded target at which a rotary axis of the nominal machine leaves the turn
 /// that the target states.
 std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Piece>& pieces);

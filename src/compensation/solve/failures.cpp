@@ -118,12 +118,25 @@ double position_miss(const Job& job, const Waypoint& w) {
   return controlled_position(job.model.mechanism, w.after);
 }
 
+namespace {
+
+// By how much a rotation vector tilts `axis`. Of a large turn about the axis its components are another
+// angle.
+double tilt_angle(const Vector3& turn, const Vector3& axis) {
+  constexpr double large = 1 * deg;
+  if (std::abs(turn.dot(axis)) < large) return tilt(turn, axis).norm();
+  const Vector3 turned = exp_so3(turn) * axis;
+  return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
+}
+
+}  // namespace
+
 double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
                           const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation) {
   double share = controlled_position(mechanism, deviation) / options.tolerance;
   if (!R_MT) return share;
   const Vector3 turn = deviation.tail<3>(), axis = R_MT->col(2);
-  share = std::max(share, tilt(turn, axis).norm() / options.tilt_tolerance);
+  share = std::max(share, tilt_angle(turn, axis) / options.tilt_tolerance);
   if (options.spin_tolerance) share = std::max(share, std::abs(turn.dot(axis)) / *options.spin_tolerance);
   return share;
 }
@@ -134,7 +147,7 @@ namespace {
 std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
   if (!w.R_MT) return std::nullopt;
   const Vector3 turn = w.after.tail<3>(), axis = w.R_MT->col(2);
-  const double tilted = tilt(turn, axis).norm(), spun = std::abs(turn.dot(axis));
+  const double tilted = tilt_angle(turn, axis), spun = std::abs(turn.dot(axis));
   const auto fail = [&](const char* what, double angle, double tolerance) {
     return Failure{
         ErrorKind::not_compensated, w.line,

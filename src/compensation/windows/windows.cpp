@@ -10,14 +10,44 @@
 
 namespace counterflex {
 
+namespace {
+
+// Sets the wanted turns about the spindle axis. `first`: number of the window's first move.
+void set_spins(const std::vector<double>& spins, std::size_t first, Program& window) {
+  for (std::size_t m = 0; m < window.moves.size(); ++m) {
+    Move& move = window.moves[m];
+    if (!move.orientation) continue;
+    MoveOrientation& orientation = *move.orientation;
+    const std::size_t number = first + m;
+    orientation.end_spin = spins[number];
+    if (!all_known(move.known_start))
+      orientation.start_spin = orientation.end_spin;
+    else
+      orientation.start_spin = move.starts_uncorrected || number == 0 ? 0 : spins[number - 1];
+  }
+}
+
+void reset_spins(Program& window) {
+  for (Move& move : window.moves)
+    if (move.orientation) move.orientation->start_spin = move.orientation->end_spin = 0;
+}
+
+}  // namespace
+
+// The forces are those of the program as it is: they do not turn with the flange.
 void JobWindows::build(JobWindow& window) const {
-  ignore_axes(reader_.window(), input_.ignored);
-  window.path = build_toolpath(reader_.window(), input_.frames, path_end_);
-  const std::vector<Matrix3> R_MT = tool_orientations(input_, reader_.window(), window.path);
-  const bool turns = R_MT.size() > 1;
-  window.forces.emplace(
-      input_.source, reader_.window(), window.path, R_MT, forces_,
-      turns ? tool_orientations_at_holes(input_, reader_.window()) : std::vector<Matrix3>{});
+  Program& program = reader_.window();
+  ignore_axes(program, input_.ignored);
+  if (input_.spins != nullptr) reset_spins(program);
+  window.path = build_toolpath(program, input_.frames, path_end_);
+  const std::vector<Matrix3> R_MT = tool_orientations(input_, program, window.path);
+  const std::vector<Matrix3> at_holes =
+      R_MT.size() > 1 ? tool_orientations_at_holes(input_, program) : std::vector<Matrix3>{};
+  if (input_.spins != nullptr) {
+    set_spins(*input_.spins, moves_, program);
+    window.path = build_toolpath(program, input_.frames, path_end_);
+  }
+  window.forces.emplace(input_.source, program, window.path, R_MT, forces_, at_holes);
 }
 
 bool JobWindows::next(JobWindow& window) {
@@ -26,6 +56,7 @@ bool JobWindows::next(JobWindow& window) {
   while (!window.forces->is_final() && reader_.extend()) build(window);
   reader_.take_window(window.program);
   window.from = tip_;
+  moves_ += window.program.moves.size();
   path_end_ = window.path.end;
   forces_ = window.forces->tail();
   window.directions = PathDirections{};
@@ -54,6 +85,7 @@ Directions first_directions(const RunInput& input, ProgramReader& reader) {
   Directions first = input.first_directions;
   DirectionsEnd end{first, {}};
   PathEnd path_end;
+  std::size_t moves = 0;  // before the window
   const std::vector<double>& reversal = input.model.mechanism.reversal;
   const auto is_known = [&] {
     for (std::size_t a = 0; a < reversal.size(); ++a)
@@ -63,6 +95,8 @@ Directions first_directions(const RunInput& input, ProgramReader& reader) {
   const ForceSource no_forces;
   while (!is_known() && reader.next()) {
     ignore_axes(reader.window(), input.ignored);
+    if (input.spins != nullptr) set_spins(*input.spins, moves, reader.window());
+    moves += reader.window().moves.size();
     const Toolpath path = build_toolpath(reader.window(), input.frames, path_end);
     const PathForces forces(no_forces, reader.window(), path, {Matrix3::Identity()});
     add_first_motions(directions_along({.model = input.model,

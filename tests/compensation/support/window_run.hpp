@@ -26,7 +26,8 @@ inline void add(const Compensation& done, WindowRun& run) {
 
 /// What a run in windows borrows: windows that have at least as many moves.
 struct WindowShop {
-  WindowShop(const Order& of, std::size_t least_moves, const WriteOptions& write = {})
+  WindowShop(const Order& of, std::size_t least_moves, const WriteOptions& write = {},
+             const std::vector<double>* spins = nullptr)
       : order(of),
         model(prepare(of.machine)),
         bytes(FileReader::of_bytes(of.text)),
@@ -42,6 +43,7 @@ struct WindowShop {
     if (of.in_batches) starts.emplace();
     RunInput input{model,   frames,     order.ignored, order.force,
                    options, order.read, &tools,        starts ? &*starts : nullptr};
+    input.spins = spins;
     if (has_reversals(model)) {
       FileReader again = FileReader::of_bytes(of.text);
       ProgramReader first(again, "part.ngc", of.read, least_moves);

@@ -1,0 +1,141 @@
+#include "compensation/spin/spin_rows.hpp"
+
+#include <algorithm>
+#include <limits>
+
+#include "compensation/solve/branch.hpp"
+#include "compensation/solve/solver.hpp"
+#include "counterflex/files/parallel.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/machine/shown.hpp"
+#include "counterflex/statics/arm_margins.hpp"
+
+namespace counterflex {
+namespace {
+
+constexpr float forbidden = std::numeric_limits<float>::infinity();
+constexpr std::size_t places_at_once = 64;  // full batches
+constexpr double travel_room = 5 * deg;     // of turned axes to the end of their travel
+constexpr double stated_room = 0.5 * deg;   // to the border of a stated turn
+constexpr double largest_step = 60 * deg;   // of an axis for a step of the grid: more is another way
+
+double margin_of(const Model& model, const Configuration& nominal) {
+  if (const auto margin = arm_margin(model, nominal)) return margin->angle;
+  return 1 / actuator_jacobian(model, nominal).condition;
+}
+
+class RowSolver {
+ public:
+  RowSolver(const Job& job, std::span<const SpinRequest> requests, std::span<SpinRow> rows)
+      : solver_(job), requests_(requests), rows_(rows) {}
+
+  void run() {
+    for (SpinRow& row : rows_) row.deviation.fill(forbidden);
+    std::vector<std::size_t> all(rows_.size());
+    for (std::size_t i = 0; i < all.size(); ++i) all[i] = i;
+    const std::vector<std::size_t> reached = solve(all, spin_zero, spin_zero);
+    for (SpinRow& row : rows_)
+      if (row.deviation[spin_zero] == forbidden) row.deviation[spin_zero] = 0;
+    for (const int side : {-1, 1}) {
+      std::vector<std::size_t> alive = reached;
+      for (int turn = spin_zero + side; turn >= 0 && turn < spin_count && !alive.empty(); turn += side)
+        alive = solve(alive, turn, turn - side);
+    }
+  }
+
+ private:
+  // The rows whose machine comes to `turn` from the turn `last`.
+  std::vector<std::size_t> solve(const std::vector<std::size_t>& rows, int turn, int last) {
+    forwards_.clear();
+    for (const std::size_t i : rows) {
+      const SpinRequest& request = requests_[i];
+      forwards_.push_back({.model = request.model,
+                           .target = request.command,
+                           .F = request.F,
+                           .within_travel = true,
+                           .R = turned(request, turn),
+                           .directions = request.directions});
+    }
+    answers_.assign(rows.size(), {});
+    solver_.forwards(forwards_, answers_, StopAt::end);
+    std::vector<std::size_t> alive;
+    for (std::size_t k = 0; k < rows.size(); ++k)
+      if (answers_[k].status == Status::converged && take(rows[k], turn, last, answers_[k]))
+        alive.push_back(rows[k]);
+    return alive;
+  }
+
+  static Matrix3 turned(const SpinRequest& request, int turn) {
+    return request.wanted.R * exp_so3((turn - spin_zero) * spin_step * Vector3::UnitZ());
+  }
+
+  bool take(std::size_t i, int turn, int last, const ForwardAnswer& answer) {
+    const SpinRequest& request = requests_[i];
+    SpinRow& row = rows_[i];
+    const auto at = static_cast<std::size_t>(turn);
+    Eigen::VectorXd rho = answer.rho;
+    if (turn != last) {
+      const Eigen::VectorXd& near = row.rho[static_cast<std::size_t>(last)];
+      rho += full_turns(request.model->mechanism, rho, near);
+      if ((rho - near).cwiseAbs().maxCoeff() > largest_step) return false;
+    }
+    const NominalResult nominal =
+        solver_.nominal({request.model, request.command, turned(request, turn)}, answer.rho);
+    if (nominal.status != Status::converged) return false;
+    row.margin[at] = static_cast<float>(margin_of(*request.model, nominal.configuration));
+    row.deviation[at] = static_cast<float>((answer.X_MT.p - request.wanted.p).norm());
+    row.rho[at] = std::move(rho);
+    return true;
+  }
+
+  PlaceSolver solver_;
+  std::span<const SpinRequest> requests_;
+  std::span<SpinRow> rows_;
+  std::vector<ForwardRequest> forwards_;
+  std::vector<ForwardAnswer> answers_;
+};
+
+}  // namespace
+
+std::vector<SpinRow> solve_rows(const Job& job, std::span<const SpinRequest> requests) {
+  std::vector<SpinRow> rows(requests.size());
+  for_each_index(
+      (rows.size() + places_at_once - 1) / places_at_once, job.options.threads, [&](std::size_t i) {
+        const std::size_t first = i * places_at_once, count = std::min(places_at_once, rows.size() - first);
+        RowSolver(job, requests.subspan(first, count), std::span(rows).subspan(first, count)).run();
+      });
+  return rows;
+}
+
+namespace {
+
+bool has_room(const Mechanism& mechanism, const Eigen::VectorXd& shown) {
+  for (std::size_t a = 0; a < mechanism.travel.size(); ++a) {
+    const Travel& travel = mechanism.travel[a];
+    const double room = travel.kind == JointKind::revolute ? travel_room : 0,
+                 value = shown[static_cast<Eigen::Index>(a)];
+    if (value < travel.min + room || value > travel.max - room) return false;
+  }
+  return true;
+}
+
+}  // namespace
+
+void keep_travel(const SpinRequest& request, Eigen::VectorXd& counted, SpinRow& row) {
+  const Eigen::VectorXd& programmed = row.rho[spin_zero];
+  if (programmed.size() == 0) return;  // it is not reached
+  const Mechanism& mechanism = request.model->mechanism;
+  if (counted.size() != programmed.size()) counted = programmed;
+  const Eigen::VectorXd turns = full_turns(mechanism, programmed, counted);
+  counted = programmed + turns;
+  const Eigen::VectorXd shown = shown_values(mechanism.shown, counted);
+  for (std::size_t turn = 0; turn < spin_count; ++turn) {
+    if (turn == spin_zero || row.deviation[turn] == forbidden) continue;
+    const Eigen::VectorXd there = shown_values(mechanism.shown, row.rho[turn] + turns);
+    if (!has_room(mechanism, there) ||
+        !keeps_stated_turns(request.turns, mechanism, shown, there, stated_room))
+      row.deviation[turn] = forbidden;
+  }
+}
+
+}  // namespace counterflex
