@@ -68,6 +68,16 @@ struct ProofFacts {
   std::vector<InputFile> written;  ///< the corrected program first
 };
 
+/// What the rotation about the spindle buys (--free spin), before correction.
+struct FreeSpin {
+  double programmed_mm = 0;  ///< largest deviation of feed moves as programmed
+  int programmed_line = 0;
+  double turned_mm = 0;  ///< of the turned program; the same where nothing is turned
+  int turned_line = 0;
+  std::size_t targets = 0, turned = 0;  ///< of the program, and those that are turned
+  double least_deg = 0, most_deg = 0;   ///< turn of the targets, counter-clockwise about the spindle axis
+};
+
 /// What only the caller of a run knows. Inputs and options keep their order in the report.
 struct RunFacts {
   std::string version;  ///< of the tool
@@ -82,6 +92,7 @@ struct RunFacts {
   bool attribution = false;
   std::optional<WrittenGuard> guard{};
   std::optional<ProofFacts> proof{};  ///< with --proof, if a program is written
+  std::optional<FreeSpin> free_spin{};
 };
 
 /// Where a line's largest deviation is.

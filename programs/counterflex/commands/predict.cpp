@@ -1,6 +1,7 @@
 #include "commands/commands.hpp"
 #include "run/offsets.hpp"
 #include "run/run.hpp"
+#include "run/spin.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -23,9 +24,14 @@ std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, O
 }  // namespace
 
 std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
+  if (options.predict.offsets && options.free_spin)
+    throw InputError(
+        ErrorKind::usage, {},
+        "--offsets keeps the program, and --free spin changes its targets; leave one of them out");
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
+  if (options.free_spin) choose_spin(*run, console);
   std::optional<OffsetSearch> offsets;
   if (options.predict.offsets) offsets.emplace(*run);
   RunFiles files(paths, {.corrected = false, .bands = !run->uncertainties.empty()});

@@ -9,6 +9,7 @@
 #include "counterflex/program/size_limit.hpp"
 #include "run/guard.hpp"
 #include "run/proof.hpp"
+#include "run/spin.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -115,6 +116,7 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
   refuse_foreign_outputs(paths, options);
   const auto run = prepare_run(options, console);
   refuse_what_cannot_be_compensated(*run);
+  if (options.free_spin) choose_spin(*run, console);
   prepare_writing(options, *run);
   if (options.guard) prepare_guard(*run, console);
   RunFiles files(paths, {.attribution = run->facts.attribution, .bands = !run->uncertainties.empty()},

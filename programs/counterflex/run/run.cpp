@@ -170,11 +170,17 @@ RunReport without_warnings(RunReport report) {
 }  // namespace
 
 RunInput Run::input() const {
-  return {machine.model,    work.frames,
-          ignored,          force_input.source,
-          options,          read,
-          &tool_models,     starts ? &*starts : nullptr,
-          first_directions, uncertainties.empty() ? nullptr : &uncertainties};
+  return {machine.model,
+          work.frames,
+          ignored,
+          force_input.source,
+          options,
+          read,
+          &tool_models,
+          starts ? &*starts : nullptr,
+          first_directions,
+          uncertainties.empty() ? nullptr : &uncertainties,
+          spins.empty() ? nullptr : &spins};
 }
 
 RunContext Run::context() const {

@@ -110,7 +110,7 @@ void add_compensate(CLI::App& app, Options& options) {
                   "  counterflex compensate O1001.NC -m machine.toml -f forces.csv -o corrected/\n"
                   "  counterflex compensate O1001.NC -m machine.toml --force=-120,0,-40");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
-  add_settings(command, options, {"output", "number-pieces", "max-points", "guard", "proof"});
+  add_settings(command, options, {"output", "number-pieces", "max-points", "guard", "free", "proof"});
   add_run(command, options);
 }
 
@@ -124,6 +124,7 @@ void add_predict(CLI::App& app, Options& options) {
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
   command.add_flag("--offsets", options.predict.offsets,
                    "Find the work offsets, tool lengths and radii that leave the least deviation");
+  add_setting(command, options, "free");
   add_run(command, options);
 }
 

@@ -166,6 +166,7 @@ struct Options {
   double tolerance = 5e-6;               ///< m
   double tilt_tolerance = 0.02 * deg;    ///< rad
   std::optional<double> spin_tolerance;  ///< rad; unset: any
+  bool free_spin = false;                ///< the turn about the spindle axis is chosen
   std::optional<double> max_correction;  ///< m; unset: that of the machine file
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: as in each word

@@ -37,6 +37,11 @@ void take_method(const std::string& name, const std::string& text, Options& opti
   options.method = methods[choice_of(name, text, {"direct", "nested", "linear"})];
 }
 
+void take_free(const std::string& name, const std::string& text, Options& options) {
+  choice_of(name, text, {"spin"});
+  options.free_spin = true;
+}
+
 void take_work(const std::string& name, const std::string& text, Options& options) {
   const bool machine = work_of(text, name).offset.empty();
   for (const std::string& other : options.work)
@@ -175,6 +180,10 @@ const std::array option_table{
                   [](Text name, Text text, Options& options) {
                     options.spin_tolerance = number_of(name, text, {0, true}) * deg;
                   }},
+    SettingOption{"free", "--free", "spin", group::correction,
+                  "Of a robot: choose the turn about the spindle axis that lowers the deviation, along the "
+                  "program (predict: show what it buys)",
+                  "", false, take_free},
     SettingOption{"max-correction-mm", "--max-correction-mm", "LENGTH", group::common,
                   "The largest correction that is accepted, in mm (default: of the machine file, or 1)", "",
                   false,

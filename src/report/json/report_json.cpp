@@ -305,6 +305,18 @@ Json guard_json(const WrittenGuard& written) {
           {"places", written.places}};
 }
 
+Json free_spin_json(const FreeSpin& spin) {
+  constexpr int digits = 7;  // as in the summary
+  return {{"programmed_mm", number(spin.programmed_mm, digits)},
+          {"programmed_line", spin.programmed_line},
+          {"turned_mm", number(spin.turned_mm, digits)},
+          {"turned_line", spin.turned_line},
+          {"targets", spin.targets},
+          {"turned", spin.turned},
+          {"least_deg", number(spin.least_deg, 1)},
+          {"most_deg", number(spin.most_deg, 1)}};
+}
+
 }  // namespace
 
 std::string failed_json(Command command, std::string_view version, const InputError& error, int exit_status) {
@@ -350,6 +362,7 @@ std::string to_json(const RunReport& report) {
                    {"units", units_json(report.units)}};
   if (report.facts.guard) document["guard"] = guard_json(*report.facts.guard);
   if (report.facts.proof) document["proof"] = proof_json(*report.facts.proof);
+  if (report.facts.free_spin) document["free_spin"] = free_spin_json(*report.facts.free_spin);
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   if (report.best_offsets) document["offsets"] = best_offsets_json(*report.best_offsets);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);

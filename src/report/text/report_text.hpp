@@ -22,4 +22,7 @@ std::string band_text(const DeviationStatistics& s);
 /// What the guard of the corrected program compares.
 std::string guard_words(const WrittenGuard& written);
 
+/// "largest deviation 1.9300 mm, line 9 -> 1.4100 mm, ...": what the turn about the spindle buys.
+std::string spin_words(const FreeSpin& spin);
+
 }  // namespace counterflex
