@@ -106,6 +106,7 @@ std::string deviation_table(const RunReport& report, const Ink& ink) {
   text += row("along the path (matters at ends)", report, &DeviationStatistics::max_along_mm);
   text += row("largest rotation, in deg", report, &DeviationStatistics::max_rotation_deg);
   text += tool_rows(report) + band_rows(report);
+  if (report.facts.free_spin) text += wrapped("  spin ", spin_words(*report.facts.free_spin), 4);
   if (!corrected) return text;
   return text + "  * model residual: what the model leaves, not the accuracy of the part\n" + factor(report);
 }
@@ -220,7 +221,6 @@ std::string program_text(const RunReport& report, const Ink& ink) {
   if (report.text_after)
     text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
                         report.text_after->blocks, report.text_before.bytes, report.text_after->bytes);
-  if (report.facts.free_spin) text += wrapped("  spin ", spin_words(*report.facts.free_spin), 4);
   if (report.facts.guard) text += wrapped("  guard ", guard_words(*report.facts.guard), 4);
   if (report.correction && report.correction->mm > 0)
     text += fmt::format("  largest correction {} mm, line {}\n", mm4(report.correction->mm),

@@ -197,6 +197,19 @@ TEST_CASE("the arm moves continuously, no closer to another configuration, and a
     CHECK(std::abs(posture.rho[3]) < (allowed - 5) * deg + 0.2 * deg);
 }
 
+TEST_CASE("the arm comes no closer to another configuration, also where axis 4 lets it go only there") {
+  for (const double y : {-0.7, 0.7})
+    for (const char* travel : {", min_deg = -6, max_deg = 75", ", min_deg = -75, max_deg = 6"}) {
+      CAPTURE(y);
+      CAPTURE(std::string(travel));
+      Order order = order_of(hanging_text(travel));
+      order.X_MW = translation(Vector3(1.75, y, 0.98));
+      const SpinChoice choice = choice_for(order);
+      const double programmed = least_margin(postures(order, none(choice)));
+      CHECK(least_margin(postures(order, choice.at_end)) > programmed - 0.02 * deg);
+    }
+}
+
 TEST_CASE("the corrected program is verified with the turns and, against the program alone, without them") {
   const Order order = order_of();
   const SpinChoice choice = choice_for(order);
