@@ -4,6 +4,9 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <array>
+#include <cstdio>
+
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
 
@@ -90,6 +93,72 @@ TEST_CASE("the reader of each G-code dialect reads the offset from the words") {
     }
     CHECK_FALSE(frame.set_mm[2]);
   }
+}
+
+TEST_CASE("the reader of Fanuc and Haas reads the further offsets from the words") {
+  for (const auto& row :
+       {std::array{"fanuc", "G54.1 P3", "G54.1 P3"}, std::array{"haas", "G154 P12", "G154 P12"},
+        std::array{"haas", "G54.1 P3", "G112"}}) {
+    const std::string dialect = row[0], name = row[1], code = row[2];
+    CAPTURE(dialect);
+    const WrittenOffset written = moved(dialect, name);
+    for (const char* text : {"G21 G90 G17\n{0}\n{1}\nG1 X1. Y1. Z1. F100.\nX2.\n",
+                             "G21 G90 G17 {1}\n{0}\nG1 X1. Y1. Z1. F100.\nX2.\n"}) {
+      const ProgramFrame frame =
+          last_frame(fmt::format(fmt::runtime(text), written.words.at(0), code), dialect);
+      for (std::size_t axis = 0; axis < 2; ++axis) {
+        REQUIRE(frame.set_mm[axis]);
+        CHECK(std::abs(*frame.set_mm[axis] - written.X_MW.p[static_cast<Eigen::Index>(axis)] / mm) < 1e-9);
+      }
+    }
+    // Not those of an offset that has the number alone.
+    const ProgramFrame other = last_frame(
+        fmt::format("G21 G90 G17 G56\n{}\nG1 X1. Y1. Z1. F100.\nX2.\n", written.words.at(0)), dialect);
+    CHECK_FALSE(other.set_mm[0]);
+    CHECK(other.origin_mm.isZero(0));
+  }
+}
+
+// "$P_UIFR[n, axis, TR]: the translation of the settable frame n", Programming Manual Job Planning; G54 is
+// frame 1, G505 is frame 5.
+TEST_CASE("the words of a Sinumerik set the translation of the settable frame") {
+  const auto read = [](const std::string& name, int frame) {
+    const WrittenOffset written = moved("siemens", name);
+    Vector3 p = at.p;
+    for (const std::string& words : written.words) {
+      int index = 0;
+      char axis = 0;
+      double value = 0;
+      int end = 0;
+      REQUIRE(std::sscanf(words.c_str(), "$P_UIFR[%d,%c,TR]=%lf%n", &index, &axis, &value, &end) == 3);
+      CHECK(static_cast<std::size_t>(end) == words.size());
+      CHECK(index == frame);
+      REQUIRE((axis >= 'X' && axis <= 'Z'));
+      p[axis - 'X'] = value * mm;
+    }
+    CHECK((p - written.X_MW.p).norm() < 1e-12);
+  };
+  read("G54", 1);
+  read("G57", 4);
+  read("G505", 5);
+  read("G599", 99);
+}
+
+TEST_CASE("the words of Klartext are columns of the preset table") {
+  const WrittenOffset written = moved("heidenhain", "G54");
+  double x = 0, y = 0;
+  REQUIRE(std::sscanf(written.words.at(0).c_str(), "preset table, active row: X%lf Y%lf", &x, &y) == 2);
+  CHECK((Vector3(x, y, at.p.z() / mm) * mm - written.X_MW.p).norm() < 1e-12);
+}
+
+TEST_CASE("KUKA reads the base of a program from BASE_DATA in the words, where a data list has them") {
+  const WrittenOffset written = turned("kuka", "BASE_DATA[4]");
+  const Program program = read_program("DEF part( )\n$BASE=" + written.words.at(0).substr(15) +
+                                           "\nLIN {X 0.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\n"
+                                           "LIN {X 9.0,Y 0.0,Z 0.0,A 0.0,B 0.0,C 0.0}\nEND\n",
+                                       "part.src", {.dialect = "kuka"});
+  REQUIRE_FALSE(program.moves.empty());
+  check_same(*program.frames[program.moves.back().frame].pose_mm, written.X_MW);
 }
 
 TEST_CASE("the reader of each robot language reads the base from the words") {

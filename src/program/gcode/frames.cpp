@@ -1,5 +1,7 @@
 #include "program/gcode/frames.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "counterflex/geometry/pose.hpp"
@@ -220,13 +222,17 @@ bool set_work_offset(const Block& block, Reading& r) {
   const Word *l = r.sorted.word('L'), *p = r.sorted.word('P'), *turn = r.sorted.word('R');
   if (!is_plain(block, r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0))
     return false;
-  if (r.state.relative || !empty(block.block_delete) || p->value < 0 || p->value > 9) return false;
+  const bool extended = l->value == 20 && r.dialect.macro_words;  // Fanuc, Haas: L20 P3 is G54.1 P3
+  if (r.state.relative || !empty(block.block_delete) || p->value < 0 || p->value > (extended ? 300 : 9))
+    return false;
   const std::string acting = name_of(current(r).work_offset);
   const bool acts = p->value == 0 && (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
   if (p->value == 0 && !acts) return false;  // Fanuc's shift of all offsets
-  const std::string name = acts ? acting : names[static_cast<std::size_t>(count_of(*p)) - 1];
+  const std::string name = extended ? fmt::format("G54.1 P{}", count_of(*p))
+                           : acts   ? acting
+                                    : names[static_cast<std::size_t>(count_of(*p)) - 1];
   SetOffset& offset = r.offsets[name];
-  if (l->value == 20) return name == acting && move_zero(block, r, offset.moved_mm);
+  if (l->value == 20 && !extended) return name == acting && move_zero(block, r, offset.moved_mm);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const Word* word = axis_word(r, axis)) {
       offset.set_mm[axis] = length_mm(r, *word);

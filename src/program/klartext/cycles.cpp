@@ -104,8 +104,8 @@ std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const Klar
   return KlartextSurface{found->value_mm, found->word, true};
 }
 
-/// Boring upwards, milling of holes, and tapping with the feed of the spindle: their Q206 is none of a
-/// plunge.
+/// Whether Q206 is the feed of a plunge: not for boring upwards, milling of holes, and tapping with the feed
+/// of the spindle.
 bool plunges(int cycle) {
   return counts_from_surface(cycle) && cycle != 204 && cycle != 207 && cycle != 208 && cycle != 209;
 }

@@ -306,7 +306,6 @@ Json guard_json(const WrittenGuard& written) {
 }
 
 Json free_spin_json(const FreeSpin& spin) {
-  constexpr int digits = 7;  // as in the summary
   return {{"programmed_mm", number(spin.programmed_mm, digits)},
           {"programmed_line", spin.programmed_line},
           {"turned_mm", number(spin.turned_mm, digits)},
