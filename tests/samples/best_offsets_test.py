@@ -1,4 +1,4 @@
-"""predict --offsets against a search of its own, on the samples whose offsets are moved, not turned.
+"""predict --offsets against a search of its own, on the samples.
 
     best_offsets_test.py COUNTERFLEX SAMPLES_FOLDER
 
@@ -14,6 +14,7 @@ import json
 import math
 import os
 import re
+import shutil
 import subprocess
 import sys
 import tempfile
@@ -29,6 +30,7 @@ class Sample:
         self.folder, self.program, self.machine, self.forces = folder, program, machine, forces
         self.work, self.start = work, list(start)
         self.frame_in_program = more.get('frame_in_program')  # a pattern: the numbers are in the program
+        self.beside = more.get('beside', ())  # files that the program reads
         self.tools = more.get('tools', ())  # a pattern of the change of tool for each but the first
         self.holes = set(more.get('holes', ()))  # lines of cycles
 
@@ -39,6 +41,7 @@ class Sample:
 MILL = '../mill3/machine.toml'
 IN_MILL = (150, 100, -240)
 CONSTANT = ['--force=60,-30,-40']
+FORCE_OF_ROBOT = ['--force=5,-4,-3']  # one that turns with the path would turn with the base in the comparison
 SAMPLES = [
     Sample('mill3', 'pocket.ngc', 'machine.toml', ['-f', 'cutting.toml'], start=IN_MILL),
     Sample('mill3', 'pocket.ngc', 'machine.toml', ['-f', 'forces.csv'], start=IN_MILL),
@@ -52,6 +55,10 @@ SAMPLES = [
     Sample('orthoglide-groove', 'groove.ngc', 'machine.toml', []),
     Sample('orthoglide-slot', 'slot.ngc', '../orthoglide-groove/machine.toml', ['-f', 'forces.toml']),
     Sample('orthoglide-cover', 'cover.ngc', '../orthoglide-groove/machine.toml', ['--force=0,0,-40']),
+    Sample('robot-ur10', 'panel.script', 'machine.toml', FORCE_OF_ROBOT, frame_in_program=r'part = p\[.*\]',
+           start=(620, -260, 100, 0, 0, math.degrees(1.5708))),
+    Sample('robot-rail', 'wing.src', 'machine.toml', FORCE_OF_ROBOT, work='BASE_DATA[4]', start=(3950, -60, 640, 0, 0, 0),
+           beside=('wing.dat',)),
     Sample('robot-spindle', 'face.ngc', 'machine.toml', ['-f', 'forces.toml'], start=(1450, -45, 640)),
 ]
 
@@ -74,6 +81,8 @@ def options_of(sample, numbers, folder):
     path = os.path.join(folder, os.path.basename(program))
     with open(path, 'w', encoding='utf-8') as file:
         file.write(text)
+    for name in sample.beside:
+        shutil.copy(name, folder)
     options = ['-m', sample.machine, *sample.forces]
     if not sample.frame_in_program:
         for name, values in works:
@@ -89,12 +98,13 @@ def run(counterflex, arguments):
 
 
 def columns_at(columns, key):
-    """Steps along a line of a round length may be one more or less after a shift: then between two places."""
+    """Steps along a line of a round length may be one more or less after a shift: then between two places. The first
+    place of a line is the last one of the line before it."""
     if key in columns:
         return columns[key]
-    of_line = sorted(k for k in columns if k[0] == key[0])
-    before = max((k for k in of_line if k <= key), default=of_line[0])
-    behind = min((k for k in of_line if k >= key), default=of_line[-1])
+    near = sorted(columns, key=lambda k: k[1])
+    before = max((k for k in near if k[1] <= key[1]), key=lambda k: (k[1], k[0] == key[0]), default=near[0])
+    behind = min((k for k in near if k[1] >= key[1]), key=lambda k: (k[1], k[0] != key[0]), default=near[-1])
     share = (key[1] - before[1]) / (behind[1] - before[1]) if behind[1] != before[1] else 0
     return [[a + share * (b - a) for a, b in zip(u, v)] for u, v in zip(columns[before], columns[behind])]
 
@@ -226,7 +236,7 @@ def normal_system(places, weights, n):
 def lawson(places, n):
     """The shift of least largest deviation of some places, and a lower bound of that (mm)."""
     weights = [1 / len(places)] * len(places)
-    best, best_x, bound = math.inf, [0.0] * n, 0.0
+    best, best_x, bound, least = math.inf, [0.0] * n, 0.0, 0.0
     for _ in range(20000):
         x = solve(*normal_system(places, weights, n))
         sizes = [norm(at(p, x)) for p in places]
@@ -235,10 +245,10 @@ def lawson(places, n):
             best, best_x = max(sizes), x
         if best - bound < AGREEMENT_MM / 5:
             break
-        weights = [w * s for w, s in zip(weights, sizes)]
+        weights = [max(w * s, least) for w, s in zip(weights, sizes)]
         total = sum(weights)
-        kept = [(p, w / total) for p, w in zip(places, weights) if w > 1e-12 * total]
-        places, weights = [p for p, _ in kept], [w for _, w in kept]
+        weights = [w / total for w in weights]
+        least = 1e-10 * max(weights)  # a place that is small now may be the largest one later
     return best_x, bound
 
 
@@ -275,7 +285,7 @@ def compare(counterflex, sample):
 
     step = [0.1 if i < 3 or i >= len(sample.start) else 0.01 for i in range(n)]
     x, left = [0.0] * n, math.inf
-    for _ in range(3):  # the model is linear about the last shift
+    for _ in range(6):  # the model is linear about the last shift
         here = deviations(x)
         there = [deviations([v + (step[i] if k == i else 0) for k, v in enumerate(x)]) for i in range(n)]
         columns = {key: [[(a - b) / step[i] for a, b in zip(moved[key], here[key])] for i, moved in enumerate(there)]
@@ -292,7 +302,7 @@ def compare(counterflex, sample):
 
 
 def main():
-    counterflex, samples = os.path.abspath(sys.argv[1]), sys.argv[2]
+    counterflex, samples = os.path.abspath(sys.argv[1]), os.path.abspath(sys.argv[2])
     only = sys.argv[3] if len(sys.argv) > 3 else ''
     failed = 0
     print('%-34s %9s %9s %9s %9s %9s %9s' % ('mm', 'before', 'product', 'rounded', 'search', 'bound', 'beside'))
