@@ -56,12 +56,12 @@ def posted(name, objectslist, argstring):
 def find_post(name):
     """The module NAME_post from FreeCAD's folders of post-processors."""
     places = []
-    try:
-        import Path
-
-        places = list(Path.Preferences.searchPathsPost())
-    except (ImportError, AttributeError):
-        pass  # an older FreeCAD, or no FreeCAD: Python searches its own folders
+    for preferences in ("Path.Preferences", "PathScripts.PathPreferences"):  # FreeCAD 0.21 and later; 0.20 and before
+        try:
+            places = importlib.import_module(preferences).searchPathsPost()
+            break
+        except ImportError:
+            pass  # outside of FreeCAD Python searches its own folders
     sys.path[:0] = places
     try:
         post = importlib.import_module(f"{name}_post")
