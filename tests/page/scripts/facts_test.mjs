@@ -17,6 +17,16 @@ test('tolerances are in the chosen unit', () => {
   assert.equal(facts.optionText('max-segment-mm', 2, units.create('um')), '2');
 });
 
+test('what a free turn about the spindle gains, or that it gains nothing', () => {
+  const um = units.create('um');
+  const spin = {programmed_mm: 0.4, turned_mm: 0.25, targets: 40, turned: 30, least_deg: -90, most_deg: 12.5};
+  assert.equal(facts.freeSpin({free_spin: spin}, um),
+    '-90 to 13\u00b0, 30 of 40 targets; largest deviation before correction 400 \u00b5m \u2192 250 \u00b5m');
+  assert.equal(facts.freeSpin({free_spin: {...spin, turned: 0}}, um),
+    'as programmed, largest deviation before correction 400 \u00b5m: no turn gains 1 %');
+  assert.equal(facts.freeSpin({}, um), 'as programmed');
+});
+
 const runs_of = (...mm) => mm.map((tolerance, i) => ({letter: mm.length > 1 ? 'AB'[i] : '',
   report: {options: tolerance === null ? {} : {'tolerance-mm': tolerance}, summary: {after: {}}}}));
 const labels = (...mm) => curves.tolerances({runs: runs_of(...mm), units: units.create('um')}).map(({label}) => label);

@@ -88,9 +88,20 @@
     return `${steps}, largest ${fixed(forces.largest_step_N, 1)} N`;
   }
 
+  /** What --free spin chose. */
+  function freeSpin({free_spin: spin}, units) {
+    if (!spin) return 'as programmed';
+    const programmed = `largest deviation before correction ${units.format(spin.programmed_mm)}`;
+    if (spin.turned === 0) return `as programmed, ${programmed}: no turn gains 1 %`;
+    const range = `${fixed(spin.least_deg, 0)} to ${fixed(spin.most_deg, 0)}\u00b0`;
+    return `${range}, ${spin.turned} of ${spin.targets} targets; ${programmed} \u2192 ${units.format(spin.turned_mm)}`;
+  }
+
   function controlRows(runs, units) {
     const of = (what, get) => [what, ...runs.map((run) => get(run.report))];
+    const spin = runs.some((run) => run.report.free_spin) ? [of('Turn about the spindle', (r) => freeSpin(r, units))] : [];
     return [
+      ...spin,
       of('Blocks of the text, before and after', (r) => `${r.text.blocks_before} / ${countText(r.text.blocks_after)}`),
       of('Bytes, before and after', (r) => `${r.text.bytes_before} / ${countText(r.text.bytes_after)}`),
       of('Feed moves with less time than --min-block-ms', shortBlocks),
@@ -118,5 +129,5 @@
     return el('div', {class: 'stack'}, counts, runs.map((run) => toolTable(run, units)));
   }
 
-  counterflex.facts = {render, program, optionText, pathTolerances};
+  counterflex.facts = {render, program, optionText, pathTolerances, freeSpin};
 })();
