@@ -109,7 +109,6 @@ struct BatchSolver::Impl {
   };
 
   StartTable::Impl& table;
-  StaticsWork work;
   KernelBatch batch;
   std::vector<std::size_t> asked;  ///< requests that have cells
   std::vector<Cells> cells;
@@ -119,7 +118,7 @@ struct BatchSolver::Impl {
   std::optional<CellIndex> line_index;  ///< of the cell that bounded a line last
   std::shared_ptr<const kernel::StartCell> line_cell;
 
-  explicit Impl(StartTable::Impl& t) : table(t), work(t.model.mechanism) {}
+  explicit Impl(StartTable::Impl& t) : table(t) {}
 
   std::shared_ptr<const KinematicsCell> kinematics_at(const TurnedPlace& place) {
     const auto index = table.is_able ? table.index_of(place.p, place.turn) : std::nullopt;
@@ -131,7 +130,7 @@ struct BatchSolver::Impl {
   /// The cell of the whole machine; null if it has no cell.
   const kernel::StartCell* target_at(const Vector3& p) {
     const auto index = table.is_able ? table.index_of(p, Vector3::Zero()) : std::nullopt;
-    if (index != line_index) line_cell = index ? table.target(*index, {}, work) : nullptr;
+    if (index != line_index) line_cell = index ? table.target(*index, {}) : nullptr;
     line_index = index;
     return line_cell.get();
   }
@@ -150,7 +149,7 @@ struct BatchSolver::Impl {
       if (index != last) {
         Cells& found = cells.emplace_back();
         found.kinematics = table.kinematics(*index);
-        if (found.kinematics) found.target = table.target(*index, acting, work);
+        if (found.kinematics) found.target = table.target(*index, acting);
         last = index;
       }
       if (!cells.back().target) continue;

@@ -75,15 +75,14 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       most_cells(kept_cells(flat.machine, !controls_positions)) {}
 
 std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p, const Vector3& turn) const {
-  const Vector3 n = (p / edge).array().floor();
-  Vector3 m = Vector3::Zero();
-  if (!controls_positions) m = (turn / turn_edge).array().round();
-  if (!(n.array().abs() <= farthest_cell).all() || !(m.array().abs() <= farthest_cell).all())
-    return std::nullopt;
   CellIndex index;
   for (std::size_t i = 0; i < 3; ++i) {
-    index.position[i] = static_cast<long>(n[static_cast<Eigen::Index>(i)]);
-    index.turn[i] = static_cast<long>(m[static_cast<Eigen::Index>(i)]);
+    const double n = p[static_cast<Eigen::Index>(i)] / edge,
+                 m = controls_positions ? 0 : turn[static_cast<Eigen::Index>(i)] / turn_edge;
+    if (!(std::abs(n) <= farthest_cell) || !(std::abs(m) <= farthest_cell)) return std::nullopt;
+    index.position[i] = static_cast<long>(n);  // and down, without a call of floor
+    if (static_cast<double>(index.position[i]) > n) --index.position[i];
+    if (m != 0) index.turn[i] = std::lround(m);
   }
   return index;
 }
@@ -109,10 +108,9 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::kinematics(const CellInd
   return kinematics_.get(index, most_cells, [&] { return make_kinematics(index); });
 }
 
-std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index, Acting acting,
-                                                                  StaticsWork& work) {
+std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index, Acting acting) {
   CellCache<kernel::StartCell>& cells = targets_[(acting.errors ? 1U : 0U) + (acting.gravity ? 2U : 0U)];
-  return cells.get(index, most_cells, [&] { return make_target(index, acting, work); });
+  return cells.get(index, most_cells, [&] { return make_target(index, acting); });
 }
 
 NominalResult StartTable::Impl::nominal_at(const CellIndex& index) {
@@ -148,8 +146,8 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
 
 // The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then
 // compares pivots with those of the centre.
-std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index, Acting acting,
-                                                                       StaticsWork& work) {
+std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index,
+                                                                       Acting acting) {
   const auto near = kinematics(index);
   if (!near) return nullptr;
   const kernel::CellPlace place = place_of(index);
@@ -160,6 +158,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
   stage.errors = acting.errors ? 1 : 0;
   stage.gravity = acting.gravity ? 1 : 0;
   const Pose X_MT{place.R, place.centre};
+  StaticsWork work(model.mechanism);
   const Equilibrium alone =
       solve_target(model, near->nominal, X_MT, {Vector6::Zero(), at_platform}, stage, work);
   if (alone.status != Status::converged) return nullptr;

@@ -102,7 +102,7 @@ struct StartTable::Impl {
   std::optional<CellIndex> index_of(const Vector3& p, const Vector3& turn = Vector3::Zero()) const;
 
   std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
-  std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting, StaticsWork& work);
+  std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting);
 
   /// The real machine, and the nominal one.
   kernel::Question question(Acting acting) const;
@@ -113,8 +113,7 @@ struct StartTable::Impl {
   /// The nominal configuration at the centre of a cell. It is reached straight from that of its landmark, a
   /// cell near it that depends on the index alone; if that fails, from home.
   NominalResult nominal_at(const CellIndex& index);
-  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting,
-                                                       StaticsWork& work);
+  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting);
   kernel::CellPlace place_of(const CellIndex& index) const;
 
   CellCache<Configuration> landmarks_;
