@@ -221,7 +221,8 @@ bool CorrectedMoves::read_on() {
 void CorrectedMoves::add(const Program& window) {
   const std::vector<std::size_t> before = other_lines_.add(window);
   moves_.reserve(moves_.size() + before.size());
-  for (std::size_t m = 0; m < before.size(); ++m) moves_.push_back({&window, &window.moves[m], before[m]});
+  for (std::size_t m = 0; m < before.size(); ++m)
+    moves_.push_back({&window, &window.moves[m], before[m], kept_words(window, window.moves[m])});
 }
 
 }  // namespace counterflex

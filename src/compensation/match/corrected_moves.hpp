@@ -46,6 +46,7 @@ struct CorrectedMove {
   const Program* program;
   const Move* move;
   std::size_t others;  ///< lines without a move before it, from the program's beginning on
+  std::string words;   ///< `kept_words`
 };
 
 class CorrectedMoves {

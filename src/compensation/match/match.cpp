@@ -66,7 +66,7 @@ std::optional<Failure> match_move(const Job& job, const PlannedWays& ways, std::
   std::optional<std::size_t> segment;
   if (state.next_segment < segments.size() && segments[state.next_segment].move == m)
     segment = state.next_segment++;
-  const MatchedMoves matched{original, segment, finder.find(m, segment, others)};
+  const MatchedMoves matched{original, segment, finder.find(m, segment, others), finder.words()};
   if (matched.found.empty()) return not_found(original, others, found, state.last_line);
   if (auto failure = frame_failure(job, matched)) return failure;
   if (auto failure = kind_failure(job, ways, matched)) return failure;

@@ -32,17 +32,15 @@ bool are_copies(const CorrectedMove& found) {
 
 bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != original.motion) return false;
-  const std::string held = kept_words(*found.program, *found.move);
-  if (are_copies(found)) return are_alike(held, words);
-  return j > 0 && acts_first(original, words) ? is_plain(held) : held == words;
+  if (are_copies(found)) return are_alike(found.words, words);
+  return j > 0 && acts_first(original, words) ? is_plain(found.words) : found.words == words;
 }
 
 // Whether another piece of the same move may follow.
 bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
-  const std::string held = kept_words(*found.program, *found.move);
-  if (are_copies(found)) return are_alike(held, words);
-  return j == 0 && acts_first(original, words) ? held == words : is_plain(held);
+  if (are_copies(found)) return are_alike(found.words, words);
+  return j == 0 && acts_first(original, words) ? found.words == words : is_plain(found.words);
 }
 
 std::size_t most_moves(const Move& original, bool has_segment) {
@@ -72,7 +70,6 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
 // The first moves that end where the original should, after a way that is about as long.
 std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
                               std::size_t others) {
-  const std::string words = kept_words(job_.program, original);
   const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, segment));
   const Curve curve = curve_of(original);
   const double length_mm = length(curve);
@@ -98,7 +95,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     if (found == nullptr || found->others != others) break;
     if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
     gone_mm += way_mm(*found->move);
-    if ((!turns_rigidly || found->move->arc) && may_end(original, words, *found, j)) {
+    if ((!turns_rigidly || found->move->arc) && may_end(original, words_, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
       if (!turns_rigidly && off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
@@ -106,7 +103,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
       const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
     }
-    if (!may_go_on(original, words, *found, j) || gone_mm > length_mm + 2 * job_.options.max_correction / mm)
+    if (!may_go_on(original, words_, *found, j) || gone_mm > length_mm + 2 * job_.options.max_correction / mm)
       break;
   }
   return best;
@@ -120,6 +117,7 @@ std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std
   if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))
     shift_mm_ = first->move->start_mm - original.start_mm;
   if (frame_ != original.frame) planned_shift_mm_.reset(), shift_mm_.reset();
+  words_ = kept_words(job_.program, original);
   next_number_.reset();
   if (m + 1 < job_.program.moves.size()) next_number_ = job_.program.moves[m + 1].block_number;
   if (next_number_ == original.block_number || job_.program.dialect == "heidenhain") next_number_.reset();
@@ -138,7 +136,7 @@ std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std
 
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
   const Move& original = matched.original;
-  const std::string wanted = kept_words(job.program, original);
+  const std::string& wanted = matched.words;
   const auto fail = [&](const CorrectedMove& found, std::string what) {
     return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.move->line};
   };
@@ -151,7 +149,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   };
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
-    const std::string words = kept_words(*found.program, move);
+    const std::string& words = found.words;
     if (are_copies(found)) {
       if (!are_alike(words, wanted))
         return fail(found, "the words besides coordinates are not those of the original's statement");

@@ -14,6 +14,7 @@ struct MatchedMoves {
   const Move& original;
   std::optional<std::size_t> segment;
   std::span<const CorrectedMove> found;  ///< the last one holds the block of the original, or its last piece
+  const std::string& words;              ///< `kept_words` of the original
 };
 
 /// Finds them, move by move. Inserted blocks come before the block that they split, follow its path, and hold
@@ -26,6 +27,9 @@ class MoveFinder {
   /// Those of move `m`, with `others` lines without a move before it; empty if no move matches. They begin
   /// at the first move that was not dropped.
   std::span<const CorrectedMove> find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
+
+  /// `kept_words` of the original whose moves were found last.
+  const std::string& words() const { return words_; }
 
   /// By how much the correction of `found` shifts the end of the move that was found last (program
   /// coordinates, mm).
@@ -41,6 +45,7 @@ class MoveFinder {
   const PlannedWays& ways_;
   CorrectedMoves& found_;
   std::vector<CorrectedMove> matched_;
+  std::string words_;                        // of the original
   std::optional<Vector3> shift_mm_;          // of the move before
   double rounding_mm_ = 0;                   // of that shift, as it was read
   std::optional<Vector3> planned_shift_mm_;  // the same, as it was planned
