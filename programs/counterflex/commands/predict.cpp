@@ -1,27 +1,8 @@
+#include "run/predict.hpp"
+
 #include "commands/commands.hpp"
-#include "run/offsets.hpp"
-#include "run/run.hpp"
-#include "run/spin.hpp"
-#include "run/windows.hpp"
 
 namespace counterflex::cli {
-namespace {
-
-/// Runs window by window, to the first failure.
-std::optional<Failure> predict_all(Run& run, RunTally& tally, RunFiles& files, OffsetSearch* offsets,
-                                   Console& console) {
-  Windows windows(run, console);
-  WindowEvents events = windows.events(tally, files);
-  if (offsets != nullptr)
-    events.solved = [offsets, solved = events.solved](const Job& window,
-                                                      const std::vector<Waypoint>& waypoints) {
-      solved(window, waypoints);
-      offsets->add(window, waypoints);
-    };
-  return predict_windows(windows.jobs(), run.options.threads, events);
-}
-
-}  // namespace
 
 std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
   if (options.predict.offsets && options.free_spin)
@@ -30,17 +11,10 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
         "--offsets keeps the program, and --free spin changes its targets; leave one of them out");
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
-  const auto run = prepare_run(options, console);
-  if (options.free_spin) choose_spin(*run, console);
-  std::optional<OffsetSearch> offsets;
-  if (options.predict.offsets) offsets.emplace(*run);
-  RunFiles files(paths, {.corrected = false, .bands = !run->uncertainties.empty()});
-  RunTally tally = tally_for(options, *run);
-  const std::optional<Failure> failure =
-      predict_all(*run, tally, files, offsets ? &*offsets : nullptr, console);
-  RunReport report = report_prediction(run->context(), tally, failure);
-  if (offsets && !report.error_kind) report.best_offsets = offsets->find(options, report, tally, console);
-  return deliver(options, *run, std::move(report), tally, files, console);
+  return predict_run(options, *prepare_run(options, console), paths, console,
+                     [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+                       return tell_result(options, run, end, files, console);
+                     });
 }
 
 }  // namespace counterflex::cli

@@ -103,6 +103,7 @@ void Console::warning(const std::string& file, int line, std::string_view what) 
   const std::string text =
       without_controls(line > 0 ? with_named_line(fmt::format("{}:{}: warning: {}", file, line, what))
                                 : fmt::format("{}: warning: {}", file, what));
+  if (listener_.warning && texts_.insert(text).second) return listener_.warning(text);
   if (quiet_ || !texts_.insert(text).second || ++warnings_[file] > warnings_shown) return;
   erase_progress();
   write_error((colour_ ? painted(text, "warning", 35) : text) + "\n");

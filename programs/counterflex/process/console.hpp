@@ -17,8 +17,9 @@ namespace counterflex::cli {
 
 /// Receives diagnostics and progress of a run without a terminal.
 struct ConsoleListener {
-  std::function<void(std::string_view diagnostic)> error{};  ///< instead of standard error
-  std::function<void(int line, int lines)> solving{};        ///< is at `line` of `lines`
+  std::function<void(std::string_view diagnostic)> error{};    ///< instead of standard error
+  std::function<void(std::string_view diagnostic)> warning{};  ///< likewise, of all warnings
+  std::function<void(int line, int lines)> solving{};          ///< is at `line` of `lines`
   std::function<void(std::size_t waypoints)> solved{};  ///< number of waypoints solved since the last call
 };
 

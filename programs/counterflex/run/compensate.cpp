@@ -114,29 +114,32 @@ std::optional<ErrorKind> compensate_program(const Options& options, Console& con
                                             const ReportEnd& report_end) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
-  const auto run = prepare_run(options, console);
-  refuse_what_cannot_be_compensated(*run);
-  if (options.free_spin) choose_spin(*run, console);
-  prepare_writing(options, *run);
-  if (options.guard) prepare_guard(*run, console);
-  RunFiles files(paths, {.attribution = run->facts.attribution, .bands = !run->uncertainties.empty()},
+  return compensate_run(options, *prepare_run(options, console), paths, console, report_end);
+}
+
+std::optional<ErrorKind> compensate_run(const Options& options, Run& run, const OutputPaths& paths,
+                                        Console& console, const ReportEnd& report_end) {
+  refuse_what_cannot_be_compensated(run);
+  if (options.free_spin) choose_spin(run, console);
+  prepare_writing(options, run);
+  if (options.guard) prepare_guard(run, console);
+  RunFiles files(paths, {.attribution = run.facts.attribution, .bands = !run.uncertainties.empty()},
                  options.hash_outputs || wants_proof(options));
-  if (options.max_points && can_be_divided(run->program.dialect)) files.hold_program();
-  if (run->file.lines) files.count_loop();
-  RunTally tally = tally_for(options, *run);
+  if (options.max_points && can_be_divided(run.program.dialect)) files.hold_program();
+  if (run.file.lines) files.count_loop();
+  RunTally tally = tally_for(options, run);
   PointCount points;
   std::optional<ProofNotes> proof;
-  if (wants_proof(options)) proof.emplace(run->program.dialect);
+  if (wants_proof(options)) proof.emplace(run.program.dialect);
   const std::optional<Failure> failure =
-      compensate_all(*run, tally, files, points, proof ? &*proof : nullptr, console);
-  run->facts.output = without_controls(paths.program);  // the report omits it if no program is written
-  if (!failure) finish_program(options, *run, points, paths, files);
-  if (!failure && proof) run->facts.proof = proof->facts(*run);
+      compensate_all(run, tally, files, points, proof ? &*proof : nullptr, console);
+  run.facts.output = without_controls(paths.program);  // the report omits it if no program is written
+  if (!failure) finish_program(options, run, points, paths, files);
+  if (!failure && proof) run.facts.proof = proof->facts(run);
   if (failure && failure->kind == ErrorKind::usage)
-    return print_failure(*run, failure, console);  // no result: an option is wrong
+    return print_failure(run, failure, console);  // no result: an option is wrong
   return report_end(
-      *run, finish_run(options, *run, report_compensation(run->context(), tally, failure), tally, files),
-      files);
+      run, finish_run(options, run, report_compensation(run.context(), tally, failure), tally, files), files);
 }
 
 }  // namespace counterflex::cli

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <utility>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
@@ -129,7 +130,11 @@ void refuse_home(const Model& model, const Machine& machine) {
 MachineInput read_machine_input(const Options& options) {
   const std::string text = read_input(options.machine, ErrorKind::machine_or_force);
   const std::string name = shown_name(options.machine);
-  MachineInput input{input_file("machine", options.machine, text), read_machine(text, name), {}};
+  return ready_machine(options, input_file("machine", options.machine, text), read_machine(text, name));
+}
+
+MachineInput ready_machine(const Options& options, InputFile file, Machine machine) {
+  MachineInput input{std::move(file), std::move(machine), {}};
   override_work(options, input.machine);
   input.machine = at_temperature_of(options, std::move(input.machine));
   input.model = prepare(input.machine);

@@ -26,6 +26,9 @@ struct MachineInput {
 };
 MachineInput read_machine_input(const Options& options);
 
+/// The same for a machine that is known; `file` is where it is from.
+MachineInput ready_machine(const Options& options, InputFile file, Machine machine);
+
 /// The tool of --tool ("T3") and its number. Throws (ErrorKind::usage) with the list of known tools.
 const std::pair<const long, Tool>& tool_named(const std::string& text, const Machine& machine);
 

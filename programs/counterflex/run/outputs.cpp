@@ -337,6 +337,7 @@ RunFiles::RunFiles(const OutputPaths& paths, const CsvColumns& columns, bool has
   open(json_, paths.report_json);
   open(page_, paths.report_page);
   if (csv_) csv_->write(csv_header(columns));
+  if (paths.take_rows) paths.take_rows(csv_header(columns));
 }
 
 void RunFiles::write_held() {
@@ -362,14 +363,17 @@ void RunFiles::add_program(std::string_view text) {
     splitter_->add(text);
   else if (program_)
     program_->write(text);
+  if (!held_ && paths_.take_program) paths_.take_program(text);
 }
 
 void RunFiles::add_waypoints(const std::vector<Waypoint>& waypoints) {
   constexpr std::size_t at_once = 256;  // rows; one has half a kilobyte
-  if (!csv_) return;
+  if (!csv_ && !paths_.take_rows) return;
   for (std::span<const Waypoint> rest(waypoints); !rest.empty();) {
     const auto some = rest.first(std::min(at_once, rest.size()));
-    csv_->write(csv_rows(some, columns_, next_row_));
+    const std::string rows = csv_rows(some, columns_, next_row_);
+    if (csv_) csv_->write(rows);
+    if (paths_.take_rows) paths_.take_rows(rows);
     rest = rest.subspan(some.size());
   }
 }

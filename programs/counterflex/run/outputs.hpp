@@ -33,6 +33,8 @@ struct OutputPaths {
   std::string report_page;
   std::string plot;
   std::vector<std::string> folders;  ///< created, with their parents, before any file is written
+  /// Get the corrected program, and the rows of the CSV report with its header, besides the files.
+  std::function<void(std::string_view)> take_program{}, take_rows{};
 };
 
 /// The paths of outputs. For `compensate` this includes the corrected program: by default NAME.comp.EXT

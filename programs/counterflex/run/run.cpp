@@ -7,6 +7,7 @@
 #include <functional>
 #include <set>
 #include <string>
+#include <utility>
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -154,12 +155,6 @@ void warn_of_run(Run& run, Command command, Console& console) {
   for (const Remark& warning : run.facts.warnings) console.warning(program.file, warning.line, warning.what);
 }
 
-/// Prints the warnings of the report that the run has not printed.
-void print_warnings(const Run& run, const RunReport& report, Console& console) {
-  for (const Remark& warning : report.warnings.rows)
-    console.warning(run.program.file, warning.line, warning.what);
-}
-
 /// A terminal that shows both streams shows each warning once.
 RunReport without_warnings(RunReport report) {
   report.warnings.rows.clear();
@@ -199,11 +194,8 @@ void refuse_stdin_twice(const Options& options) {
 
 namespace {
 
-std::unique_ptr<Run> prepared_run(const Options& options, Console& console,
+std::unique_ptr<Run> prepared_run(const Options& options, MachineInput machine, Console& console,
                                   const std::function<ProgramFile()>& open) {
-  refuse_stdin_twice(options);
-  console.progress("reading");
-  MachineInput machine = read_machine_input(options);
   ToolLengths tools = read_tool_lengths(options, &machine.machine);
   take_lengths(tools, machine.machine);
   auto run = std::make_unique<Run>(Run{.machine = std::move(machine), .file = open()});
@@ -249,15 +241,26 @@ std::unique_ptr<Run> prepared_run(const Options& options, Console& console,
   return run;
 }
 
+MachineInput first_input(const Options& options, Console& console) {
+  refuse_stdin_twice(options);
+  console.progress("reading");
+  return read_machine_input(options);
+}
+
 }  // namespace
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
-  return prepared_run(options, console,
+  return prepared_run(options, first_input(options, console), console,
                       [&] { return open_program("program", options.program, options.data_lists, console); });
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console) {
-  return prepared_run(options, console, [&] {
+  return prepare_run(options, first_input(options, console), text, console);
+}
+
+std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, const std::string& text,
+                                 Console& console) {
+  return prepared_run(options, std::move(machine), console, [&] {
     return ProgramFile{{"program", options.program, {}}, FileReader::of_bytes(text)};
   });
 }
@@ -390,6 +393,11 @@ std::string result_text(const Options& options, const RunReport& report, const R
 
 }  // namespace
 
+void print_warnings(const Run& run, const RunReport& report, Console& console) {
+  for (const Remark& warning : report.warnings.rows)
+    console.warning(run.program.file, warning.line, warning.what);
+}
+
 std::optional<ErrorKind> tell_result(const Options& options, const Run& run, const RunEnd& end,
                                      const RunFiles& files, Console& console) {
   print_warnings(run, end.report, console);
@@ -415,12 +423,6 @@ std::optional<ErrorKind> print_failure(const Run& run, const std::optional<Failu
   console.error(run.corrected_name.empty() ? located(run.program.file, *failure)
                                            : located_in_corrected(run, *failure));
   return failure->kind;
-}
-
-std::optional<ErrorKind> deliver(const Options& options, Run& run, RunReport report, const RunTally& tally,
-                                 RunFiles& files, Console& console) {
-  const RunEnd end = finish_run(options, run, std::move(report), tally, files);
-  return tell_result(options, run, end, files, console);
 }
 
 }  // namespace counterflex::cli

@@ -1,7 +1,9 @@
 #pragma once
 /// One program on one machine, read and ready. Common to compensate, predict and verify.
+#include <functional>
 #include <memory>
 #include <optional>
+#include <string>
 
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/compensation/windows.hpp"
@@ -52,6 +54,10 @@ std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 /// The same for a program that is not a file: `options.program` is its name.
 std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console);
 
+/// The same on a machine that is not read from `options.machine`.
+std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, const std::string& text,
+                                 Console& console);
+
 /// Throws for a machine that controls nothing (ErrorKind::machine_or_force) and for a program with the header
 /// of a corrected one (ErrorKind::program_text).
 void refuse_what_cannot_be_compensated(const Run& run);
@@ -71,8 +77,14 @@ struct RunEnd {
   std::string json;  ///< of the report
 };
 
+/// Reports a finished run whose files are published. Returns the kind of its error, or none.
+using ReportEnd = std::function<std::optional<ErrorKind>(const Run&, const RunEnd&, const RunFiles&)>;
+
 /// Completes the report and publishes the run's files. Throws `InputError` (ErrorKind::transient_io).
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
+
+/// Prints the warnings of the report that the run has not printed.
+void print_warnings(const Run& run, const RunReport& report, Console& console);
 
 /// Prints the failure, if any. Returns its kind.
 std::optional<ErrorKind> print_failure(const Run& run, const std::optional<Failure>& failure,
@@ -85,9 +97,5 @@ std::optional<ErrorKind> print_failure(const Run& run, const RunReport& report, 
 /// if standard output has the corrected program. Then prints the failure, if any. Returns its kind.
 std::optional<ErrorKind> tell_result(const Options& options, const Run& run, const RunEnd& end,
                                      const RunFiles& files, Console& console);
-
-/// Finishes the run and prints its result.
-std::optional<ErrorKind> deliver(const Options& options, Run& run, RunReport report, const RunTally& tally,
-                                 RunFiles& files, Console& console);
 
 }  // namespace counterflex::cli

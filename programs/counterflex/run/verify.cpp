@@ -1,13 +1,11 @@
-#include <filesystem>
+#include "run/verify.hpp"
+
 #include <optional>
 #include <utility>
 
-#include "commands/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "run/header/header_hashes.hpp"
-#include "run/outputs.hpp"
 #include "run/proof.hpp"
-#include "run/run.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -46,50 +44,36 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
   return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution, events);
 }
 
-/// The data lists of the corrected program: files of the same names beside it, or those of the original that
-/// were not changed and so not written.
-std::vector<std::string> lists_beside_corrected(const Options& options) {
-  std::vector<std::string> lists;
-  for (const std::string& list : options.data_lists) {
-    const std::string corrected = corrected_list(list, options.program, options.verify.corrected);
-    std::error_code ignored;
-    lists.push_back(std::filesystem::exists(corrected, ignored) ? corrected : list);
-  }
-  return lists;
-}
-
 }  // namespace
 
-std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
-  const OutputPaths paths = output_paths(options);
-  refuse_foreign_outputs(paths, options);
-  const auto run = prepare_run(options, console);
-  refuse_what_cannot_be_compensated(*run);
-  RunTally tally = tally_for(options, *run);
-  ProgramFile corrected =
-      open_program("corrected", options.verify.corrected, lists_beside_corrected(options), console);
-  ReadOptions read = run->read;
-  read.dialect = run->program.dialect;  // that of the original, independent of the name of the corrected file
+std::optional<ErrorKind> verify_run(const Options& options, Run& run, ProgramFile corrected,
+                                    const OutputPaths& paths, Console& console, const ReportEnd& report_end) {
+  refuse_what_cannot_be_compensated(run);
+  RunTally tally = tally_for(options, run);
+  ReadOptions read = run.read;
+  read.dialect = run.program.dialect;  // that of the original, independent of the name of the corrected file
   std::optional<ProofNotes> proof;
-  if (wants_proof(options)) proof.emplace(run->program.dialect);
-  const CorrectedScan scan = scan_corrected(options, *run, read, corrected, tally, proof ? &*proof : nullptr);
-  run->facts.inputs.push_back(corrected.file);
-  run->corrected_name = shown_name(options.verify.corrected);
-  for (const std::string& warning : other_inputs_of_header(scan.beginning, *run))
-    console.warning(run->corrected_name, 0, warning);
+  if (wants_proof(options)) proof.emplace(run.program.dialect);
+  const CorrectedScan scan = scan_corrected(options, run, read, corrected, tally, proof ? &*proof : nullptr);
+  run.facts.inputs.push_back(corrected.file);
+  run.corrected_name = shown_name(options.verify.corrected);
+  for (const std::string& warning : other_inputs_of_header(scan.beginning, run))
+    console.warning(run.corrected_name, 0, warning);
   RunFiles files(paths, {});
   corrected.bytes.rewind();
-  ProgramReader reader(corrected.bytes, run->corrected_name, read);
+  ProgramReader reader(corrected.bytes, run.corrected_name, read);
   const std::optional<Failure> failure =
-      verify_all(*run, reader, tally, files, proof ? &*proof : nullptr, console);
+      verify_all(run, reader, tally, files, proof ? &*proof : nullptr, console);
   corrected.bytes.refuse_change();
   if (!failure && proof) {
-    run->facts.proof = proof->facts(*run);
-    run->facts.proof->written = {corrected.file};
-    for (const InputFile& list : corrected.data_lists) run->facts.proof->written.push_back(list);
+    run.facts.proof = proof->facts(run);
+    run.facts.proof->written = {corrected.file};
+    for (const InputFile& list : corrected.data_lists) run.facts.proof->written.push_back(list);
   }
-  return deliver(options, *run, report_verification(run->context(), tally, scan.program, failure), tally,
-                 files, console);
+  return report_end(run,
+                    finish_run(options, run, report_verification(run.context(), tally, scan.program, failure),
+                               tally, files),
+                    files);
 }
 
 }  // namespace counterflex::cli
