@@ -86,7 +86,7 @@ struct CornerSolving {
 /// The largest share of the tolerance. Places that need not keep it may get worse by a tenth of it.
 double most_share(const OffsetQuestion& q, const Waypoint& at) {
   constexpr double worse = 0.1;
-  if (!at.exempt) return 1;
+  if (!at.exempt && !at.insignificant) return 1;
   return std::max(1.0, share_of_tolerance(q.options, q.model.mechanism, at.R_MT, at.after)) + worse;
 }
 

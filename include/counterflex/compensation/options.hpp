@@ -34,6 +34,9 @@ struct CompensationOptions {
   double blend = 2e-3;  ///< m: 0 makes steps of the force jumps of the correction, at rapids too
   int threads = 1;
   WriteOptions write;
+  /// Targets whose deviation is not above its own band stay as programmed (`targets_as_programmed`), and a
+  /// place above the tolerance is accepted there.
+  bool only_significant = false;
 };
 
 /// Where a turn counts as much as a shift (m/rad): one of the tolerance of tilt as one of the tolerance.
@@ -62,7 +65,21 @@ struct Job {
   /// How actuators move along the path; none: not known, their joints do not lag.
   const PathDirections* directions = nullptr;
   const TipUncertainties* uncertainties = nullptr;  ///< none: waypoints have no covariance
+  /// By number of the program's move, whether its end stays as programmed; none: no end does.
+  const std::vector<bool>* as_programmed = nullptr;
+  std::size_t first_move = 0;  ///< number of the window's first move in the program
 };
+
+/// Whether the end of a move of the window stays as programmed.
+inline bool ends_as_programmed(const Job& job, std::size_t move) {
+  return job.as_programmed != nullptr && (*job.as_programmed)[job.first_move + move];
+}
+
+/// Whether its start does: the end of the move before it.
+inline bool starts_as_programmed(const Job& job, std::size_t move) {
+  return job.as_programmed != nullptr && job.first_move + move > 0 &&
+         (*job.as_programmed)[job.first_move + move - 1];
+}
 
 /// How actuators move at a fraction of a move, on the side that ends or begins there.
 inline Directions directions_at(const Job& job, std::size_t move, double u, Side side) {
@@ -138,6 +155,7 @@ struct Waypoint {
   bool between = false;  ///< a sample inside a piece
   bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
   bool exempt = false;
+  bool insignificant = false;            ///< above the tolerance, and accepted: `after` is not above its band
   BoxedOptional<Matrix3> R_MT;           ///< wanted orientation, where the program gives one
   double weight = 0;                     ///< of the cutting length: the way from the waypoint before (m)
   double s = 0;                          ///< cutting path length (m)
@@ -190,6 +208,7 @@ struct Questions {
   bool before = true;
   bool attribution = false;  ///< the causes
   bool inside = true;        ///< samples between the ends of feed pieces
+  bool bands = false;        ///< starts of feed pieces are waypoints, too, and all have a covariance
 };
 
 struct ForwardRun {
@@ -227,5 +246,8 @@ std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> 
 
 /// The pieces of the original program itself, one for each place of its path.
 std::vector<Piece> original_pieces(const Job& job);
+
+/// The same, one for each move.
+std::vector<Piece> original_moves(const Job& job);
 
 }  // namespace counterflex

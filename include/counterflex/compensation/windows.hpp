@@ -53,8 +53,13 @@ double position_miss(const Job& job, const Waypoint& w);
 double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
                           const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation);
 
+/// Whether `after` is at most `share` of its own band, k = 2: the controlled position of its band, and where
+/// the program gives the orientation tilt (and spin, if that has a tolerance) of its tolerance or its band.
+/// False without a covariance.
+bool is_below_band(const Job& job, const Waypoint& w, double share = 1);
+
 /// The failure of the first waypoint that misses the tolerance in a move that the plan corrects (not
-/// `exempt`).
+/// `exempt`, not `insignificant`).
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints);
 
 /// The part of a tolerance (m) that rounding words to their digits takes: half the last digit times sqrt 3.
@@ -76,6 +81,7 @@ struct RunInput {
   /// Wanted turn about the spindle axis at the end of each move of the program (rad), by its number; see
   /// `SpinSearch`. None: as programmed.
   const std::vector<double>* spins = nullptr;
+  const std::vector<bool>* as_programmed = nullptr;  ///< as for a job
 };
 
 /// A window with its path and forces. It does not change while others are read.
@@ -85,6 +91,7 @@ struct JobWindow {
   std::optional<PathForces> forces;
   std::optional<TipPosition> from;  ///< as for a job
   PathDirections directions{};      ///< of a machine with reversals
+  std::size_t first_move = 0;       ///< as for a job
 };
 
 /// In which direction each actuator moves first on the path of a program: of a machine with reversals.
@@ -134,6 +141,9 @@ struct WindowEvents {
 
 /// Solves the original program forward.
 std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events);
+
+/// The same, sampled as closely as a verification, with a covariance at each waypoint.
+std::optional<Failure> predict_bands(JobWindows& windows, int threads, const WindowEvents& events);
 
 /// Compensates a program. `corrected` reads the text that is written. With `attribution` each waypoint has
 /// its causes.

@@ -19,6 +19,7 @@ constexpr std::size_t look_ahead = 64;  // blocks
 std::optional<Emitter::PositionCorrection> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
   const auto index = static_cast<std::size_t>(&move - job_.program.moves.data());
+  if (ends_as_programmed(job_, index)) return PositionCorrection{-frame(move).datum_shift, Vector3::Zero()};
   const TargetRequest request{&model, wanted, job_.forces.in_hole(index), orientation_of(job_, move),
                               directions_at(job_, index, 1, Side::before)};
   TargetAnswer answer;

@@ -23,12 +23,11 @@ BoxedOptional<Turn> turn_between(const Segment& segment, double u0, double u1) {
   return stretch(*segment.turn, u0, u1);
 }
 
-}  // namespace
-
-std::vector<Piece> original_pieces(const Job& job) {
+// `places_of` sets the fractions at which the pieces of a segment end.
+template <typename PlacesOf>
+std::vector<Piece> pieces_of(const Job& job, const PlacesOf& places_of) {
   std::vector<Piece> pieces;
   std::vector<double> places;
-  ForceCursor cursor;
   std::size_t next_move = 0;
   const auto add_ends_before = [&](std::size_t end) {
     for (; next_move < end; ++next_move) {
@@ -41,7 +40,7 @@ std::vector<Piece> original_pieces(const Job& job) {
     const Segment& segment = job.path.segments[s];
     add_ends_before(segment.move);
     const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
-    places_along(job, s, cursor, places);
+    places_of(s, places);
     double u0 = 0;
     for (const double u : places) {
       pieces.push_back({.segment = s,
@@ -57,6 +56,18 @@ std::vector<Piece> original_pieces(const Job& job) {
   }
   add_ends_before(job.program.moves.size());
   return pieces;
+}
+
+}  // namespace
+
+std::vector<Piece> original_pieces(const Job& job) {
+  ForceCursor cursor;
+  return pieces_of(job,
+                   [&](std::size_t s, std::vector<double>& places) { places_along(job, s, cursor, places); });
+}
+
+std::vector<Piece> original_moves(const Job& job) {
+  return pieces_of(job, [](std::size_t, std::vector<double>& places) { places = {1}; });
 }
 
 }  // namespace counterflex

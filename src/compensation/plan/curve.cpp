@@ -6,43 +6,60 @@
 namespace counterflex {
 namespace {
 
+// Whether a straight line between two fractions is near enough.
+using IsStraight = std::function<bool(double u0, double u1)>;
+
+// At sixteenths and at corners. The middle comes first: a line that is too long mostly shows it there.
+template <typename Holds>
+bool holds_between(double u0, double u1, const std::vector<double>& corners, const Holds& holds) {
+  for (const int k : {8, 4, 12, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15})
+    if (!holds(u0 + (u1 - u0) * k / 16)) return false;
+  return std::all_of(corners.begin(), corners.end(),
+                     [&](double corner) { return !(corner > u0 && corner < u1) || holds(corner); });
+}
+
 // A vector to be interpolated linearly between knots, with the places where it has corners.
 struct Interpolated {
   const CorrectionAt& at;
   const std::vector<double>& corners;
 };
 
-// At sixteenths and at corners. The middle comes first: a line that is too long mostly shows it there.
 bool stays_within(const Interpolated& curve, double u0, double u1, double tolerance) {
   const Correction c0 = curve.at(u0), c1 = curve.at(u1);
-  const auto holds = [&](double u) {
+  return holds_between(u0, u1, curve.corners, [&](double u) {
     const double w = (u - u0) / (u1 - u0);
     return (curve.at(u) - (1 - w) * c0 - w * c1).norm() <= tolerance;
-  };
-  for (const int k : {8, 4, 12, 2, 6, 10, 14, 1, 3, 5, 7, 9, 11, 13, 15})
-    if (!holds(u0 + (u1 - u0) * k / 16)) return false;
-  return std::all_of(curve.corners.begin(), curve.corners.end(),
-                     [&](double corner) { return !(corner > u0 && corner < u1) || holds(corner); });
+  });
 }
 
-// The farthest end that a straight line from u0 reaches within the tolerance.
-double reach(const Interpolated& curve, double u0, double end, double tolerance) {
-  if (stays_within(curve, u0, end, tolerance)) return end;
+// The farthest end to which a straight line goes from u0.
+double reach(const IsStraight& is_straight, double u0, double end) {
+  if (is_straight(u0, end)) return end;
   double good = u0, bad = end;
   for (int k = 0; k < 40 && bad - good > 1e-6; ++k) {
     const double u = (good + bad) / 2;
-    (stays_within(curve, u0, u, tolerance) ? good : bad) = u;
+    (is_straight(u0, u) ? good : bad) = u;
   }
   return good > u0 ? good : bad;
 }
 
-std::vector<double> greedy(const Interpolated& curve, double u0, double end, double tolerance) {
+std::vector<double> greedy(const IsStraight& is_straight, double u0, double end) {
   std::vector<double> knots;
   for (double u = u0; u < end;) {
-    u = reach(curve, u, end, tolerance);
+    u = reach(is_straight, u, end);
     knots.push_back(u);
   }
   return knots;
+}
+
+std::vector<double> greedy(const Interpolated& curve, double u0, double end, double tolerance) {
+  return greedy([&](double a, double b) { return stays_within(curve, a, b, tolerance); }, u0, end);
+}
+
+// Whether what a correction leaves is within the tolerance, or not more than without it.
+template <int first>
+bool leaves_little(const Correction& left, const Correction& without, double tolerance) {
+  return left.segment<3>(first).norm() <= std::max(tolerance, without.segment<3>(first).norm());
 }
 
 }  // namespace
@@ -88,6 +105,19 @@ std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector
                                  double tolerance) {
   const CorrectionAt at = [&curve](double u) { return curve.at(u); };
   return choose_knots(at, curve.begin(), curve.end(), corners, tolerance);
+}
+
+std::vector<double> choose_knots(const CorrectionCurve& full, const Fade& fade,
+                                 const std::vector<double>& corners, double tolerance) {
+  const auto is_straight = [&](double u0, double u1) {
+    const Correction c0 = fade(u0, full.at(u0)), c1 = fade(u1, full.at(u1));
+    return holds_between(u0, u1, corners, [&](double u) {
+      const double w = (u - u0) / (u1 - u0);
+      const Correction c = full.at(u), left = c - (1 - w) * c0 - w * c1, without = c - fade.programmed;
+      return leaves_little<0>(left, without, tolerance) && leaves_little<3>(left, without, tolerance);
+    });
+  };
+  return greedy(is_straight, full.begin(), full.end());
 }
 
 std::vector<double> kept_from_ends(const CorrectionCurve& curve, const std::vector<double>& corners,

@@ -54,6 +54,25 @@ std::vector<double> choose_knots(const CorrectionAt& at, double u0, double u1,
 std::vector<double> choose_knots(const CorrectionCurve& curve, const std::vector<double>& corners,
                                  double tolerance);
 
+/// How much of a correction is in effect along a segment: all of it, or evenly less towards an end that stays
+/// as programmed. The share multiplies the correction, so that a share of the deviation remains.
+struct Fade {
+  bool from = false, to = false;  ///< whether the start and the end stay as programmed
+  Correction programmed = Correction::Zero();
+
+  bool acts() const { return from || to; }
+  Correction operator()(double u, const Correction& full) const {
+    if (!acts()) return full;
+    const double share = from && to ? 0 : from ? u : 1 - u;
+    return programmed + share * (full - programmed);
+  }
+};
+
+/// Knots of a correction that fades out: the straight lines between them leave at most `tolerance` of the
+/// deviation, or not more than without a correction. Both hold for position and turn by themselves.
+std::vector<double> choose_knots(const CorrectionCurve& full, const Fade& fade,
+                                 const std::vector<double>& corners, double tolerance);
+
 /// `knots` of a curve with those before `first` and behind `last` moved there, but for the one at its end. If
 /// the lines between them would miss the tolerance, the knots stay.
 std::vector<double> kept_from_ends(const CorrectionCurve& curve, const std::vector<double>& corners,

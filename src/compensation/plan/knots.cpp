@@ -40,9 +40,27 @@ std::optional<double> room_between_points(const Job& job, const Segment& segment
   return room;
 }
 
+namespace {
+
+std::optional<Failure> add_fading_knots(const Job& job, PlaceSolver& solver, std::size_t index,
+                                        const CorrectionCurve& stretch, const Fade& fade,
+                                        const std::vector<double>& corners, PlannedSegment& planned) {
+  const Segment& segment = job.path.segments[index];
+  double gain = 1;
+  if (auto failure = set_gain(job, solver, index, gain)) return failure;
+  const std::optional<double> room = room_between_points(job, segment, gain);
+  if (!room) return few_decimals_failure(job.program.moves[segment.move], job.options);
+  for (const double u : choose_knots(stretch, fade, corners, *room))
+    planned.knots.push_back({command_at(job, segment, u, fade(u, stretch.at(u))), u});
+  return std::nullopt;
+}
+
+}  // namespace
+
 std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_t index,
-                                 const CorrectionCurve& stretch, const std::vector<double>& corners,
-                                 PlannedSegment& planned) {
+                                 const CorrectionCurve& stretch, const Fade& fade,
+                                 const std::vector<double>& corners, PlannedSegment& planned) {
+  if (fade.acts()) return add_fading_knots(job, solver, index, stretch, fade, corners, planned);
   const Segment& segment = job.path.segments[index];
   std::vector<double> knots = choose_knots(stretch, corners, room_for_knots(job, segment));
   if (knots.size() > 1) {

@@ -10,10 +10,10 @@ namespace counterflex {
 double room_for_knots(const Job& job, const Segment& segment);
 
 /// Adds the knots of a stretch without steps of the correction along a line. `corners`: fractions of the
-/// segment. Returns the reason if there are no knots.
+/// segment; `fade`: along all of it. Returns the reason if there are no knots.
 std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_t segment,
-                                 const CorrectionCurve& stretch, const std::vector<double>& corners,
-                                 PlannedSegment& planned);
+                                 const CorrectionCurve& stretch, const Fade& fade,
+                                 const std::vector<double>& corners, PlannedSegment& planned);
 
 /// Sets how much the tip moves for a change of target at the end of a segment, at most.
 std::optional<Failure> set_gain(const Job& job, PlaceSolver& solver, std::size_t segment, double& gain);

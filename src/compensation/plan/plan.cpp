@@ -16,11 +16,18 @@ namespace {
 
 constexpr double sampled_angle = std::numbers::pi / 2;  // of a wave, two samples on each side of an extreme
 
-enum class Kind { held, group, end, cut };
+enum class Kind { held, group, end, cut, as_programmed };
+
+Fade fade_of(const Job& job, const Segment& segment) {
+  Fade fade{starts_as_programmed(job, segment.move), ends_as_programmed(job, segment.move)};
+  fade.programmed.head<3>() = -job.path.frames[segment.frame].datum_shift;
+  return fade;
+}
 
 struct PlanTask {
   std::size_t segment = 0;
   Kind kind = Kind::held;
+  Fade fade{};
   Answer start = no_answer, end = no_answer;
   std::vector<Answer> group{};
   std::vector<double> limits{};  // of a cut that is sampled: fractions between which it is
@@ -60,7 +67,7 @@ bool reverses_inside(const Job& job, const Segment& segment) {
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
   const Segment& segment = job.path.segments[task.segment];
   if (segment.wanted.arc || segment.turn || (job.options.blend == 0 && !task.limits.empty())) return false;
-  if (reverses_inside(job, segment)) return false;
+  if (reverses_inside(job, segment) || task.fade.acts()) return false;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
   const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
   const LineBend bend = corrections.solver().bend_along(
@@ -103,6 +110,12 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index) {
     task.kind = Kind::group;
     ask_group(requests, task, segment.cutting);
   } else if (move.handling != Handling::held && !move.cycle) {
+    task.fade = fade_of(job, segment);
+    if (task.fade.from && task.fade.to) {
+      task.kind = Kind::as_programmed;
+      requests.tasks.push_back(std::move(task));
+      return;
+    }
     // With a blend a rapid starts where the cut ended.
     if (segment.cutting || job.options.blend == 0) task.start = corrections.ask(index, 0, Side::after);
     if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
@@ -114,6 +127,19 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index) {
       task.end = corrections.ask(index, 1, F1, Side::before);
   }
   requests.tasks.push_back(std::move(task));
+}
+
+void finish_as_programmed(const Job& job, const PlanTask& task, PlannedSegment& planned) {
+  const Segment& segment = job.path.segments[task.segment];
+  const Correction& c = task.fade.programmed;
+  planned.starts_anywhere = !segment.cutting && job.options.blend > 0;
+  planned.start = command_at(job, segment, 0, c);
+  if (!segment.wanted.arc) {
+    planned.end = command_at(job, segment, 1, c);
+    return;
+  }
+  planned.arc.emplace_back().add({{{0, c}, {1, c}}});
+  planned.knots = {{command_at(job, segment, 1, c), 1}};
 }
 
 // Continuous stretches between steps of the force, each with its own knots. `interval`: the first one of the
@@ -132,12 +158,14 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
     const Correction a = ends ? b : corrections.correction(interval[1].at[0]);
     const bool step = (a - b).norm() > small_share * job.options.tolerance;
     if (!step && !ends) continue;
+    const double u = interval->u[4];
     if (segment.wanted.arc)
       planned.arc.push_back(std::move(stretch));
-    else if (auto failure = add_knots(job, corrections.solver(), task.segment, stretch, corners, planned))
+    else if (auto failure =
+                 add_knots(job, corrections.solver(), task.segment, stretch, task.fade, corners, planned))
       return failure;
     if (step && !segment.wanted.arc)
-      planned.knots.push_back({command_at(job, segment, interval->u[4], a), interval->u[4]});
+      planned.knots.push_back({command_at(job, segment, u, task.fade(u, a)), u});
     stretch = {};
   }
   if (segment.wanted.arc) {
@@ -157,12 +185,16 @@ std::optional<Failure> finish(const Job& job, Corrections& corrections, const Pl
     planned.group.push_back(corrections.node(u, task.group[k]));
   }
   if (task.kind == Kind::held || task.kind == Kind::group) return std::nullopt;
+  if (task.kind == Kind::as_programmed) {
+    finish_as_programmed(job, task, planned);
+    return std::nullopt;
+  }
   planned.starts_anywhere = task.start == no_answer;
   planned.start.target = segment.wanted.start;
   if (task.start != no_answer)
-    planned.start = command_at(job, segment, 0, corrections.correction(task.start));
+    planned.start = command_at(job, segment, 0, task.fade(0, corrections.correction(task.start)));
   if (task.kind == Kind::cut) return finish_cut(job, corrections, task, interval, planned);
-  planned.end = command_at(job, segment, 1, corrections.correction(task.end));
+  planned.end = command_at(job, segment, 1, task.fade(1, corrections.correction(task.end)));
   return std::nullopt;
 }
 

@@ -141,6 +141,24 @@ double share_of_tolerance(const CompensationOptions& options, const Mechanism& m
   return share;
 }
 
+bool is_below_band(const Job& job, const Waypoint& w, double share) {
+  if (!w.covariance) return false;
+  Matrix3 controlled = Matrix3::Zero();
+  for (const Component c : job.model.mechanism.controlled)
+    if (c <= Component::z) controlled(static_cast<int>(c), static_cast<int>(c)) = 1;
+  const auto is_below = [&](const Matrix3& part, const Vector3& d, const Matrix3& C) {
+    return (part * d).norm() <= share * band(part * d, part * C * part.transpose());
+  };
+  if (!is_below(controlled, w.after.head<3>(), w.covariance->topLeftCorner<3, 3>())) return false;
+  if (!w.R_MT) return true;
+  const Vector3 turn = w.after.tail<3>(), axis = w.R_MT->col(2);
+  const Matrix3 C = w.covariance->bottomRightCorner<3, 3>(), about = axis * axis.transpose();
+  const auto& most_spin = job.options.spin_tolerance;
+  return (tilt_angle(turn, axis) <= job.options.tilt_tolerance ||
+          is_below(Matrix3::Identity() - about, turn, C)) &&
+         (!most_spin || std::abs(turn.dot(axis)) <= *most_spin || is_below(about, turn, C));
+}
+
 namespace {
 
 // The tilt and the spin of a waypoint whose orientation the program gives.
@@ -167,7 +185,7 @@ std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
     const double miss = position_miss(job, w);
-    if (w.exempt) continue;
+    if (w.exempt || w.insignificant) continue;
     if (auto failure = turn_failure(job, w)) return failure;
     if (miss <= job.options.tolerance) continue;
     return Failure{

@@ -8,6 +8,7 @@
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/piece_samples.hpp"
 #include "compensation/windows/parallel.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
 namespace {
@@ -66,15 +67,20 @@ std::vector<Waypoint> waypoints_of(const Job& job, const PieceSamples& all) {
   return waypoints;
 }
 
+bool is_above_tolerance(const Job& job, const Waypoint& w) {
+  return share_of_tolerance(job.options, job.model.mechanism, w.R_MT, w.after) > 1;
+}
+
 // Of the waypoints before `count`: at an equilibrium that is not found again they stay unknown.
-void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& all, std::size_t count,
-                     std::vector<Waypoint>& waypoints) {
+void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& all, const Questions& questions,
+                     std::size_t count, std::vector<Waypoint>& waypoints) {
   const Model* last = nullptr;
   const TipUncertainty* uncertainty = nullptr;
   std::optional<StaticsWork> work;
   for (std::size_t i = 0; i < count; ++i) {
     const ForwardRequest& request = all.requests[all.order[i]];
-    if (!knows_before(waypoints[i])) continue;
+    const bool may_stay = job.options.only_significant && is_above_tolerance(job, waypoints[i]);
+    if (!knows_before(waypoints[i]) && !questions.bands && !may_stay) continue;
     if (request.model != last) {
       last = request.model;
       uncertainty = &job.uncertainties->by_model.at(last);
@@ -85,6 +91,7 @@ void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& al
     const Load load{request.F, job.forces.at_platform()};
     const DatumTangents& datum = job.uncertainties->by_frame[frame_of(all.piece_of(all.order[i]))];
     waypoints[i].covariance = uncertainty->of_tip(found.configuration, load, *work, datum).sum();
+    waypoints[i].insignificant = may_stay && is_below_band(job, waypoints[i]);
   }
 }
 
@@ -111,7 +118,7 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
     add_before(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
   if (questions.attribution)
     add_causes(solver, std::span(places).first(solved()), std::span(waypoints).first(solved()));
-  if (job.uncertainties != nullptr) add_covariances(job, solver, all, solved(), waypoints);
+  if (job.uncertainties != nullptr) add_covariances(job, solver, all, questions, solved(), waypoints);
   if (solved() < waypoints.size()) waypoints.resize(solved() + 1);
 }
 

@@ -104,7 +104,8 @@ bool is_where_the_last_ended(Slice& slice, const SampledPiece& sampled) {
 // Without a blend the force may begin with a step. No end of a piece before shows it either.
 std::size_t add_start(Slice& slice, std::size_t t) {
   const SampledPiece& sampled = slice.pieces[t];
-  const bool listed = sampled.begins_run || sampled.begins_elsewhere || slice.job.options.blend == 0;
+  const bool listed =
+      sampled.begins_run || sampled.begins_elsewhere || slice.job.options.blend == 0 || slice.questions.bands;
   if (!listed && is_where_the_last_ended(slice, sampled)) return slice.samples.size() - 1;
   return add_sample(slice, {.piece = t,
                             .v = 0,

@@ -125,6 +125,18 @@ WindowSteps steps_of_shifted_prediction(const ConstantShift& shift, PathCarry& c
           .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
 }
 
+WindowSteps steps_of_bands(PathCarry& carry) {
+  return {.questions = {.before = false, .bands = true},
+          .prepare = [](const Job&, WindowWork&) {},
+          .write =
+              [&](const Job& job, WindowWork& work) {
+                work.pieces = original_moves(job);
+                carry_path(job, carry, work);
+              },
+          .match = [](const Job&, WindowWork&) {},
+          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
+}
+
 WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution) {
   return {.questions = {.attribution = attribution},
           .prepare = plan_window,

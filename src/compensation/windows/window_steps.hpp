@@ -40,6 +40,9 @@ struct PathCarry {
 
 WindowSteps steps_of_prediction(PathCarry& carry);
 
+/// Sampled as a verification, with all bands. `carry` is where the text ends alone.
+WindowSteps steps_of_bands(PathCarry& carry);
+
 /// With a constant shift in effect. `carry` is where the text ends alone: the way there is not followed.
 WindowSteps steps_of_shifted_prediction(const ConstantShift& shift, PathCarry& carry);
 

@@ -56,6 +56,7 @@ bool JobWindows::next(JobWindow& window) {
   while (!window.forces->is_final() && reader_.extend()) build(window);
   reader_.take_window(window.program);
   window.from = tip_;
+  window.first_move = moves_;
   moves_ += window.program.moves.size();
   path_end_ = window.path.end;
   forces_ = window.forces->tail();
@@ -78,7 +79,9 @@ Job JobWindows::job(const JobWindow& window) const {
           .starts = input_.starts,
           .from = window.from,
           .directions = has_reversals(input_.model) ? &window.directions : nullptr,
-          .uncertainties = input_.uncertainties};
+          .uncertainties = input_.uncertainties,
+          .as_programmed = input_.as_programmed,
+          .first_move = window.first_move};
 }
 
 Directions first_directions(const RunInput& input, ProgramReader& reader) {
@@ -244,6 +247,11 @@ class WindowRun {
 std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events) {
   PathCarry carry;
   return WindowRun(windows, threads, steps_of_prediction(carry), events).run();
+}
+
+std::optional<Failure> predict_bands(JobWindows& windows, int threads, const WindowEvents& events) {
+  PathCarry carry;
+  return WindowRun(windows, threads, steps_of_bands(carry), events).run();
 }
 
 std::optional<Failure> predict_shifted_windows(JobWindows& windows, int threads, const ConstantShift& shift,

@@ -27,7 +27,7 @@ inline void add(const Compensation& done, WindowRun& run) {
 /// What a run in windows borrows: windows that have at least as many moves.
 struct WindowShop {
   WindowShop(const Order& of, std::size_t least_moves, const WriteOptions& write = {},
-             const std::vector<double>* spins = nullptr)
+             const std::vector<double>* spins = nullptr, const std::vector<bool>* as_programmed = nullptr)
       : order(of),
         model(prepare(of.machine)),
         bytes(FileReader::of_bytes(of.text)),
@@ -44,6 +44,9 @@ struct WindowShop {
     RunInput input{model,   frames,     order.ignored, order.force,
                    options, order.read, &tools,        starts ? &*starts : nullptr};
     input.spins = spins;
+    input.as_programmed = as_programmed;
+    uncertainties = tip_uncertainties(of.machine, model, tools, frames);
+    if (!uncertainties.empty()) input.uncertainties = &uncertainties;
     if (has_reversals(model)) {
       FileReader again = FileReader::of_bytes(of.text);
       ProgramReader first(again, "part.ngc", of.read, least_moves);
@@ -60,6 +63,7 @@ struct WindowShop {
   CompensationOptions options;
   ToolModels tools;
   std::optional<StartTables> starts;
+  TipUncertainties uncertainties;
   std::optional<JobWindows> windows;
 };
 
