@@ -176,6 +176,7 @@ void add_residual(RunReport& report, const RunTally& tally, const Measures& meas
   report.correction = known(measures.correction);
   report.worst = tally.path().worst(&WorstRow::after_mm);
   report.tools_off = tools_off(measures, true);
+  if (tally.as_programmed()) report.as_programmed = tally.as_programmed()->found();
 }
 
 std::string nothing_reason(const BlockCounts& blocks) {

@@ -78,6 +78,15 @@ struct FreeSpin {
   double least_deg = 0, most_deg = 0;   ///< turn of the targets, counter-clockwise about the spindle axis
 };
 
+/// What stays as programmed because the deviation is below its own band (--only-significant). It is read from
+/// the written text: a target without a correction counts.
+struct AsProgrammed {
+  std::size_t targets = 0, left = 0;   ///< ends of moves that were solved; of them without a correction
+  double length_mm = 0, left_mm = 0;   ///< of feed moves; of them without a correction from end to end
+  double largest_mm = 0, band_mm = 0;  ///< largest deviation of feed moves that is left there, and its band
+  int largest_line = 0;                ///< 0: nothing is left
+};
+
 /// What only the caller of a run knows. Inputs and options keep their order in the report.
 struct RunFacts {
   std::string version;  ///< of the tool
@@ -334,6 +343,7 @@ struct RunReport {
   std::optional<Capped<ReversalRow>> reversals{};  ///< where axes have lost motion
   std::optional<PathLoads> loads{};                ///< where they were solved, see `add_loads`
   std::optional<UncertaintyReport> uncertainty{};  ///< for a machine that states one
+  std::optional<AsProgrammed> as_programmed{};     ///< with --only-significant
   Capped<Remark> warnings;
   std::vector<WorstRow> worst;  ///< at most ten lines, the largest `after` first (`before` for `predict`)
   std::string work;             ///< where program coordinates were taken to be, in words

@@ -138,6 +138,19 @@ class OperationNames {
   std::int32_t last_ = -1;
 };
 
+/// Collects what stays as programmed.
+class AsProgrammedTally {
+ public:
+  /// The next waypoint of a run with `only_significant`.
+  void add(const Waypoint& w);
+  const AsProgrammed& found() const { return found_; }
+
+ private:
+  AsProgrammed found_;
+  double move_mm_ = 0;  ///< feed length of the move under way
+  bool stays_ = false;  ///< from the end of the move before on it has no correction
+};
+
 /// Each part is added in the order of the program. Where it is cut into windows changes nothing in the
 /// report.
 class RunTally {
@@ -181,6 +194,7 @@ class RunTally {
   std::size_t corrected_moves() const { return corrected_moves_; }
   const OtherMoves& other_moves() const { return other_moves_; }
   const std::optional<Capped<ReversalRow>>& reversals() const { return reversals_; }
+  const std::optional<AsProgrammedTally>& as_programmed() const { return as_programmed_; }
   std::size_t inserted_blocks() const { return inserted_blocks_; }
   std::size_t text_bytes() const { return text_bytes_; }  ///< of compensated text
 
@@ -192,6 +206,7 @@ class RunTally {
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_travel(const Waypoint& w, const Job& window);
+  void add_as_programmed(const Waypoint& w);
   void add_reversals(const Job& window);
   MoveFacts facts_of(const Job& window, const Segment& segment) const;
 
@@ -209,6 +224,7 @@ class RunTally {
   Capped<LeftAlone> left_alone_;
   OtherMoves other_moves_;
   std::optional<Capped<ReversalRow>> reversals_;
+  std::optional<AsProgrammedTally> as_programmed_;  ///< with `only_significant`
   std::size_t corrected_moves_ = 0, inserted_blocks_ = 0, text_bytes_ = 0;
   std::optional<LineLengths> lines_;
   std::optional<ShortBlocks> short_blocks_;

@@ -362,6 +362,7 @@ std::string to_json(const RunReport& report) {
   if (report.facts.guard) document["guard"] = guard_json(*report.facts.guard);
   if (report.facts.proof) document["proof"] = proof_json(*report.facts.proof);
   if (report.facts.free_spin) document["free_spin"] = free_spin_json(*report.facts.free_spin);
+  if (report.as_programmed) document["only_significant"] = as_programmed_json(*report.as_programmed);
   if (!report.tools.empty()) document["tools"] = tools_json(report.tools);
   if (report.best_offsets) document["offsets"] = best_offsets_json(*report.best_offsets);
   if (report.reversals) document["reversals"] = reversals_json(*report.reversals);

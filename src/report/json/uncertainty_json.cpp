@@ -26,6 +26,16 @@ Json bands_json(const BandStatistics& bands) {
           {"below_percent", number(bands.below_percent, band_digits)}};
 }
 
+Json as_programmed_json(const AsProgrammed& found) {
+  const double percent = found.length_mm > 0 ? 100 * found.left_mm / found.length_mm : 0;
+  return {{"targets", found.targets},
+          {"as_programmed", found.left},
+          {"length_percent", number(percent, band_digits)},
+          {"largest_mm", number(found.largest_mm, band_digits)},
+          {"band_mm", number(found.band_mm, band_digits)},
+          {"line", found.largest_line}};
+}
+
 Json uncertainty_json(const UncertaintyReport& of) {
   Json json = {{"k", 2},
                {"parameters", of.parameters},

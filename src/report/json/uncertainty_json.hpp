@@ -4,6 +4,7 @@
 
 namespace counterflex {
 
+Json as_programmed_json(const AsProgrammed& found);
 Json bands_json(const BandStatistics& bands);
 Json uncertainty_json(const UncertaintyReport& of);
 

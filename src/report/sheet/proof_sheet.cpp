@@ -161,6 +161,7 @@ class Sheet {
 
   std::string tolerances() const {
     std::string text = short_fixed(report_.tolerance_mm, 6) + " mm";
+    if (report_.as_programmed) text += ", or the band (as programmed there)";
     const OptionValue* tilt = option_of(report_, "tolerance-tilt-deg");
     const OptionValue* spin = option_of(report_, "tolerance-spin-deg");
     if (tilt == nullptr) return text + "; the program does not turn the tool";

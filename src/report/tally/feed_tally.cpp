@@ -63,14 +63,14 @@ void FeedTally::add_measured(bool is_within) {
 
 void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
   if (w.status != Status::converged) return;
-  const bool is_within = miss <= window.options.tolerance;
+  const bool is_within = miss <= window.options.tolerance || w.insignificant;
   const bool hole = is_place_of_cycle(window.program, w);
   if (!w.cutting && !hole) {
     const bool feed = w.segment == no_segment && window.program.moves[w.move].motion == Motion::feed;
     ++(feed ? moves_.known_ends : moves_.rapid_ends);
     return;
   }
-  if (moves_.worst_line == 0 || miss / mm > moves_.worst_mm) {
+  if (!w.insignificant && (moves_.worst_line == 0 || miss / mm > moves_.worst_mm)) {
     moves_.worst_mm = miss / mm;
     moves_.worst_line = w.line;
   }

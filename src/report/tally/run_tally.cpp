@@ -59,9 +59,15 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     }
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
+    if (window.options.only_significant) add_as_programmed(w);
     add(w, operation, facts, miss <= window.options.tolerance);
     if (segment != no_segment && w.status == Status::converged) add_to_travel(w, window);
   }
+}
+
+void RunTally::add_as_programmed(const Waypoint& w) {
+  if (!as_programmed_) as_programmed_.emplace();
+  as_programmed_->add(w);
 }
 
 void RunTally::add_to_travel(const Waypoint& w, const Job& window) {

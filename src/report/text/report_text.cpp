@@ -221,6 +221,7 @@ std::string program_text(const RunReport& report, const Ink& ink) {
   if (report.text_after)
     text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
                         report.text_after->blocks, report.text_before.bytes, report.text_after->bytes);
+  if (report.as_programmed) text += wrapped("  left ", as_programmed_words(*report.as_programmed), 4);
   if (report.facts.guard) text += wrapped("  guard ", guard_words(*report.facts.guard), 4);
   if (report.correction && report.correction->mm > 0)
     text += fmt::format("  largest correction {} mm, line {}\n", mm4(report.correction->mm),

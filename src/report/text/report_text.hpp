@@ -22,6 +22,9 @@ std::string band_text(const DeviationStatistics& s);
 /// What the guard of the corrected program compares.
 std::string guard_words(const WrittenGuard& written);
 
+/// "12 of 40 targets and 31 % of the feed length as programmed, ...": what --only-significant leaves.
+std::string as_programmed_words(const AsProgrammed& found);
+
 /// "largest deviation 1.9300 mm, line 9 -> 1.4100 mm, ...": what the turn about the spindle buys.
 std::string spin_words(const FreeSpin& spin);
 

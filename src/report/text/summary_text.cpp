@@ -159,6 +159,10 @@ std::string spin_line(const RunReport& report) {
   return report.facts.free_spin ? item("spin", spin_words(*report.facts.free_spin)) : "";
 }
 
+std::string left_line(const RunReport& report) {
+  return report.as_programmed ? item("left", as_programmed_words(*report.as_programmed)) : "";
+}
+
 std::string guard_line(const RunReport& report) {
   return report.facts.guard ? item("guard", guard_words(*report.facts.guard)) : "";
 }
@@ -184,9 +188,9 @@ std::string more_line(const RunReport& report) {
 std::string summary_text(const RunReport& report, const std::vector<std::string>& files, bool colour) {
   const Ink ink{colour};
   return verdict_line(report, ink) + headline(report, ink) + spin_line(report) + before_text(report) +
-         after_text(report) + uncertainty_line(report) + offsets_lines(report) + force_line(report) +
-         moves_line(report) + guard_line(report) + sanity_line(report, ink) + files_line(report, files) +
-         more_line(report);
+         after_text(report) + uncertainty_line(report) + left_line(report) + offsets_lines(report) +
+         force_line(report) + moves_line(report) + guard_line(report) + sanity_line(report, ink) +
+         files_line(report, files) + more_line(report);
 }
 
 }  // namespace counterflex

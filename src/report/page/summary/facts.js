@@ -122,10 +122,21 @@
     return table(words.ofRun(run, 'Tools'), columns, rows);
   }
 
+  /** What --only-significant leaves. */
+  function asProgrammed(runs, units) {
+    const text = ({only_significant: left}) => {
+      if (!left) return unknown;
+      const largest = left.line > 0 ? `, largest deviation ${units.format(left.largest_mm)} \u00b1 ${units.format(left.band_mm)}, ${words.inLine(left.line)}` : '';
+      return `${left.as_programmed} of ${words.counted(left.targets, 'target')}, ${fixed(left.length_percent, 0)} % of the feed length${largest}`;
+    };
+    if (!runs.some((run) => run.report.only_significant)) return [];
+    return [['As programmed, below the band', ...runs.map((run) => text(run.report))]];
+  }
+
   /** Counts of blocks, checks against limits of the control, and tools. */
   function program({runs, units}) {
     const blocks = blockRows.map(([what, key]) => [what, ...runs.map((run) => countText(run.report.blocks[key]))]);
-    const counts = compared('Blocks and control', runs, [...blocks, ...controlRows(runs, units)]);
+    const counts = compared('Blocks and control', runs, [...blocks, ...asProgrammed(runs, units), ...controlRows(runs, units)]);
     return el('div', {class: 'stack'}, counts, runs.map((run) => toolTable(run, units)));
   }
 
