@@ -9,6 +9,7 @@
 #include "counterflex/program/size_limit.hpp"
 #include "run/guard.hpp"
 #include "run/proof.hpp"
+#include "run/significance.hpp"
 #include "run/spin.hpp"
 #include "run/windows.hpp"
 
@@ -121,6 +122,7 @@ std::optional<ErrorKind> compensate_run(const Options& options, Run& run, const 
                                         Console& console, const ReportEnd& report_end) {
   refuse_what_cannot_be_compensated(run);
   if (options.free_spin) choose_spin(run, console);
+  if (options.only_significant) find_insignificant(run, console);
   prepare_writing(options, run);
   if (options.guard) prepare_guard(run, console);
   RunFiles files(paths, {.attribution = run.facts.attribution, .bands = !run.uncertainties.empty()},

@@ -74,6 +74,7 @@ RunFacts facts_of(const Options& options, const Run& run) {
     if (const auto& spin = run.options.spin_tolerance)
       facts.options.push_back({"tolerance-spin-deg", *spin / deg});
   }
+  if (options.only_significant) facts.options.push_back({"only-significant", true});
   if (options.free_spin) facts.options.push_back({"free", std::string("spin")});
   for (const ForceRule& rule : options.force_rules) facts.options.push_back({"force", force_rule_text(rule)});
   if (options.number_pieces) facts.options.push_back({"number-pieces", true});

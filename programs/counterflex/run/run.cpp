@@ -72,6 +72,7 @@ CompensationOptions compensation_options(const Options& options, const Machine& 
   result.spin_tolerance = options.spin_tolerance;
   result.max_correction = options.max_correction.value_or(machine.max_correction);
   result.blend = options.blend;
+  result.only_significant = options.only_significant;
   result.threads = options.threads;
   result.write.decimals = options.decimals;
   return result;
@@ -175,7 +176,8 @@ RunInput Run::input() const {
           starts ? &*starts : nullptr,
           first_directions,
           uncertainties.empty() ? nullptr : &uncertainties,
-          spins.empty() ? nullptr : &spins};
+          spins.empty() ? nullptr : &spins,
+          as_programmed.empty() ? nullptr : &as_programmed};
 }
 
 RunContext Run::context() const {

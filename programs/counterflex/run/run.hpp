@@ -35,10 +35,11 @@ struct Run {
   TipUncertainties
       uncertainties{};  ///< of the machine with each tool; empty: the machine states no uncertainty
   std::optional<StartTables> starts{};
-  Directions first_directions{};  ///< in which actuators with lost motion move first
-  std::vector<double> spins{};    ///< as in `RunInput`; empty: none (--free spin)
-  LoadPlaces load_places{};       ///< of the path, if loads are requested
-  SanityChecks sanity{};          ///< checks before the run
+  Directions first_directions{};      ///< in which actuators with lost motion move first
+  std::vector<double> spins{};        ///< as in `RunInput`; empty: none (--free spin)
+  std::vector<bool> as_programmed{};  ///< as in `RunInput`; empty: none (--only-significant)
+  LoadPlaces load_places{};           ///< of the path, if loads are requested
+  SanityChecks sanity{};              ///< checks before the run
 
   RunInput input() const;
   RunContext context() const;

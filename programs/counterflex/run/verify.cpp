@@ -6,6 +6,7 @@
 #include "counterflex/compensation/windows.hpp"
 #include "run/header/header_hashes.hpp"
 #include "run/proof.hpp"
+#include "run/significance.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -49,6 +50,7 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
 std::optional<ErrorKind> verify_run(const Options& options, Run& run, ProgramFile corrected,
                                     const OutputPaths& paths, Console& console, const ReportEnd& report_end) {
   refuse_what_cannot_be_compensated(run);
+  if (options.only_significant) find_insignificant(run, console);
   RunTally tally = tally_for(options, run);
   ReadOptions read = run.read;
   read.dialect = run.program.dialect;  // that of the original, independent of the name of the corrected file

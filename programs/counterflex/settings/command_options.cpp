@@ -110,7 +110,8 @@ void add_compensate(CLI::App& app, Options& options) {
                   "  counterflex compensate O1001.NC -m machine.toml -f forces.csv -o corrected/\n"
                   "  counterflex compensate O1001.NC -m machine.toml --force=-120,0,-40");
   add_file(command, "PROGRAM", options.program, "The machining program; - is standard input");
-  add_settings(command, options, {"output", "number-pieces", "max-points", "guard", "free", "proof"});
+  add_settings(command, options,
+               {"output", "number-pieces", "max-points", "guard", "free", "only-significant", "proof"});
   add_run(command, options);
 }
 
@@ -134,7 +135,7 @@ void add_verify(CLI::App& app, Options& options) {
                   "  counterflex verify O1001.NC O1001.comp.NC -m machine.toml -f forces.csv");
   add_file(command, "ORIGINAL", options.program, "The original program");
   add_file(command, "CORRECTED", options.verify.corrected, "The corrected program");
-  add_setting(command, options, "proof");
+  add_settings(command, options, {"only-significant", "proof"});
   add_run(command, options);
 }
 
@@ -474,7 +475,7 @@ void add_watch(CLI::App& app, Options& options) {
   add_setting(
       command, options, "output",
       "The folder of the corrected programs, or a pattern (default: NAME.comp.EXT beside each program)");
-  add_settings(command, options, {"number-pieces", "max-points", "guard", "proof"});
+  add_settings(command, options, {"number-pieces", "max-points", "guard", "only-significant", "proof"});
   add_run(command, options);
 }
 

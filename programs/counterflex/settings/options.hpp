@@ -168,6 +168,7 @@ struct Options {
   std::optional<double> spin_tolerance;  ///< rad; unset: any
   bool free_spin = false;                ///< the turn about the spindle axis is chosen
   std::optional<double> max_correction;  ///< m; unset: that of the machine file
+  bool only_significant = false;         ///< targets below their bands stay as programmed
   bool accept_partial = false;           ///< a program is written though the verdict is PARTLY
   int decimals = -1;                     ///< -1: as in each word
   bool number_pieces = false;

@@ -195,6 +195,10 @@ const std::array option_table{
         "Accept the verdict PARTLY: write the program though some feed moves miss the tolerance", "false",
         false, [](Text name, Text text, Options& options) { options.accept_partial = truth_of(name, text); }},
     SettingOption{
+        "only-significant", "--only-significant", "", group::correction,
+        "Leave targets as programmed where the deviation is below its own band (k = 2)", "false", false,
+        [](Text name, Text text, Options& options) { options.only_significant = truth_of(name, text); }},
+    SettingOption{
         "decimals", "--decimals", "N", group::correction,
         "Decimals in corrected words (default: as in the program)", "", false,
         [](Text name, Text text, Options& options) { options.decimals = integer_of(name, text, 0, 9); }},

@@ -150,7 +150,7 @@ TEST_CASE("what stays does not depend on windows or threads") {
   std::uniform_real_distribution<double> step(-40, 40);
   std::string text = "G21 G90 G17 G54\nG0 X0 Y100 Z0\nG1 F600\n";
   double x = 0, y = 100;
-  for (int k = 0; k < 120; ++k) {
+  for (int k = 0; k < 40; ++k) {
     x = std::clamp(x + step(random), -200.0, 200.0);
     y = std::clamp(y + step(random), 0.0, 200.0);
     text += fmt::format("{} X{:.3f} Y{:.3f}\n", k % 17 == 0 ? "G0" : "G1", x, y);
@@ -158,10 +158,10 @@ TEST_CASE("what stays does not depend on windows or threads") {
   Order order = leaning(text + "M2\n");
   const Faded whole = faded(order);
   REQUIRE_FALSE(whole.run.failure);
-  CHECK(count(whole.stay) > 10);
-  CHECK(count(whole.stay) < whole.stay.size() - 10);
+  CHECK(count(whole.stay) > 4);
+  CHECK(count(whole.stay) < whole.stay.size() - 4);
   CHECK(refusal(order, whole.run.text).empty());
-  for (const std::size_t moves : {1, 2, 5, 16})
+  for (const std::size_t moves : {1, 4})
     for (const int threads : {1, 3}) {
       CAPTURE(moves);
       CAPTURE(threads);
@@ -255,7 +255,7 @@ void check_random_cuts(unsigned seed, int programs) {
 }  // namespace
 
 TEST_CASE("where a program can be corrected, it can be with the option, under forces that step") {
-  check_random_cuts(1, 12);
+  check_random_cuts(1, 5);
 }
 
 TEST_SUITE("long") {

@@ -149,6 +149,7 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
   add_tools(run, lines);
   add_forces(options, run, lines);
   add_reading(run, lines);
+  if (options.only_significant) lines.push_back(std::string(only_significant_mark) + ", REST AS PROGRAMMED");
   for (std::string& line : lines) line.insert(0, header_mark);
   return lines;
 }

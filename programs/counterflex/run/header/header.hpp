@@ -13,6 +13,9 @@ namespace counterflex::cli {
 /// control allows in comments.
 std::vector<std::string> header_of(const Options& options, const Run& run);
 
+/// Of a program in which not all is corrected: `verify` needs the option, too.
+inline constexpr std::string_view only_significant_mark = "ONLY SIGNIFICANT";
+
 /// Options of reading that the text of a program does not show: `verify` needs those of `compensate`.
 struct ReadingWord {
   bool acts;

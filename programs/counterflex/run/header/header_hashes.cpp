@@ -95,6 +95,9 @@ std::vector<std::string> other_inputs_of_header(const std::string& text, const R
   const bool has_header = text.find("COUNTERFLEX 1 VERSION") != std::string::npos;
   if (std::string reading = has_header ? other_reading(text, run.read) : ""; !reading.empty())
     warnings.push_back(std::move(reading));
+  if (text.find("COUNTERFLEX 1 " + std::string(only_significant_mark)) != std::string::npos &&
+      !run.options.only_significant)
+    warnings.emplace_back("targets below their bands stay as programmed: give --only-significant here, too");
   return warnings;
 }
 
