@@ -70,9 +70,12 @@ std::string uncertainty_line(const RunReport& report) {
   if (const auto& at = report.uncertainty->at_worst)
     text = fmt::format("+- {} mm (k = 2) is machine {}, force {}, others {}; ", mm4(at->all_mm),
                        mm4(at->parameters_mm), mm4(at->force_mm), mm4(at->others_mm));
-  return item("uncertainty",
-              text + fmt::format("on {} % of the length the correction is below its own uncertainty",
-                                 format_fixed(report.before->bands->below_percent, 0)));
+  text += fmt::format("on {} % of the length the correction is below its own uncertainty",
+                      format_fixed(report.before->bands->below_percent, 0));
+  if (const auto& sampled = report.uncertainty->sampled)
+    text += fmt::format("; {} samples: {} % inside of the bands", sampled->samples,
+                        format_fixed(sampled->covered_percent, 1));
+  return item("uncertainty", text);
 }
 
 std::string other_force(const UnderOtherForce& other) {
