@@ -36,6 +36,8 @@ def seconds_of_module(call, side):
 
 
 def main():
+    if len(sys.argv) < 2:
+        sys.exit(__doc__)
     side = math.isqrt(int(sys.argv[2]) if len(sys.argv) > 2 else 10000)
     calls = {'--stiffness': lambda machine, poses: machine.stiffness(poses, threads=1),
              '--deviation': lambda machine, poses: machine.solve(poses, threads=1)}

@@ -52,6 +52,7 @@ class Compensating(unittest.TestCase):
     def test_a_text_stays_a_text(self):
         text, report = counterflex.compensate(TEXT.decode(), self.machine, causes=False)
         self.assertEqual(report.verdict, 'OK')
+        self.assertEqual(repr(report), f'<counterflex.Report OK, {len(report.waypoints)} waypoints>')
         self.assertIsInstance(text, str)
         self.assertEqual(text.encode(), counterflex.compensate(TEXT, self.machine, causes=False).text)
         self.assertTrue(np.isnan(report.waypoints['geometry_dx_mm']).all())

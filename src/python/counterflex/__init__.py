@@ -203,7 +203,7 @@ class Machine:
         return (at, loads, *more, count)
 
 
-@dataclass(frozen=True)
+@dataclass(frozen=True, repr=False)
 class Report:
     """What a run found."""
 
@@ -218,6 +218,9 @@ class Report:
     def verdict(self) -> str:
         """OK, PARTLY, NOTHING CORRECTED or FAILED; of predictions PREDICTED."""
         return self.data["verdict"]
+
+    def __repr__(self) -> str:
+        return f"<counterflex.Report {self.verdict}, {len(self.waypoints)} waypoints>"
 
 
 class Compensation(NamedTuple):
