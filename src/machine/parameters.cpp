@@ -191,6 +191,15 @@ std::vector<Parameter> parameters(const Machine& machine) {
   return list;
 }
 
+std::vector<std::size_t> parameter_indices(const Machine& machine, const std::vector<std::string>& names) {
+  const std::vector<Parameter> all = parameters(machine);
+  std::vector<std::size_t> indices;
+  for (const std::string& name : names)
+    for (std::size_t i = 0; i < all.size(); ++i)
+      if (all[i].name == name) indices.push_back(i);
+  return indices;
+}
+
 Machine with_parameters(const Machine& machine, const std::vector<double>& values) {
   Machine result = machine;
   const std::vector<ParameterPlace> list = parameter_places(result);

@@ -32,6 +32,9 @@ struct Parameter {
 /// In the order of chains and elements. Names are unique.
 std::vector<Parameter> parameters(const Machine& machine);
 
+/// Where parameters of these names are in `parameters`. Unknown names are left out.
+std::vector<std::size_t> parameter_indices(const Machine& machine, const std::vector<std::string>& names);
+
 /// The machine with these values (SI) of all its parameters, in the order of `parameters`. Compliances and
 /// masses must be positive. Elements whose values are the same keep their bits.
 Machine with_parameters(const Machine& machine, const std::vector<double>& values);

@@ -9,15 +9,6 @@
 namespace counterflex {
 namespace {
 
-std::vector<std::size_t> indices_of(const Machine& machine, const std::vector<std::string>& names) {
-  const std::vector<Parameter> all = parameters(machine);
-  std::vector<std::size_t> indices;
-  for (const std::string& name : names)
-    for (std::size_t i = 0; i < all.size(); ++i)
-      if (all[i].name == name) indices.push_back(i);
-  return indices;
-}
-
 /// Places of the program, the same without force, then candidates, as rows that have tangents.
 Measurements rows_of(const std::vector<ProgramPlace>& program,
                      const std::vector<NextMeasurement>& candidates) {
@@ -51,7 +42,7 @@ Eigen::MatrixXd gain(const Eigen::MatrixXd& C, const Eigen::MatrixXd& H) {
 ProgramUncertainty next_measurements(const Machine& machine, const KnownParameters& known,
                                      const std::vector<ProgramPlace>& program,
                                      std::vector<NextMeasurement> candidates, int count, int threads) {
-  const std::vector<std::size_t> varied = indices_of(machine, known.names);
+  const std::vector<std::size_t> varied = parameter_indices(machine, known.names);
   const Measurements rows = rows_of(program, candidates);
   const States states = nominal_states(machine, rows, threads);
   std::vector<Configuration> loaded;

@@ -9,17 +9,6 @@
 namespace counterflex {
 namespace {
 
-/// Indices of the parameters' names, which the machine has.
-std::vector<std::size_t> indices_of(const Machine& machine, const std::vector<std::string>& names) {
-  const std::vector<Parameter> all = parameters(machine);
-  std::vector<std::size_t> indices;
-  for (const std::string& name : names)
-    indices.push_back(static_cast<std::size_t>(
-        std::find_if(all.begin(), all.end(), [&](const Parameter& p) { return p.name == name; }) -
-        all.begin()));
-  return indices;
-}
-
 /// The twist of the tip relative to the part by what the part deflects.
 Vector6 part_twist(const Mechanism& mechanism, const Load& load, const Pose& X_MT) {
   const Vector6 F = wrench_at_tip(mechanism, load.F, load.at_platform, X_MT);
@@ -32,7 +21,7 @@ TipUncertainty::TipUncertainty(const Machine& machine, const Model& model)
     : mechanism_(model.mechanism),
       uncertainty_(*machine.uncertainty),
       known_(uncertain_parameters(machine)),
-      tangents_(machine, model, indices_of(machine, known_.names), true) {
+      tangents_(machine, model, parameter_indices(machine, known_.names), true) {
   if (uncertainty_.temperature == 0) return;
   const ThermalTable& table = *machine.thermal;
   constexpr double step = 1e-3;  // K: shift and growth are linear between the temperatures of the table
