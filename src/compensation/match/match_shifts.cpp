@@ -15,6 +15,8 @@
 namespace counterflex {
 namespace {
 
+constexpr double height_rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
+
 // Whether the move's height is a word of a block before it: Q203 of a cycle's definition, MCALL.
 bool takes_surface(const Move& move) {
   if (move.called) return !move.called->modal.empty();
@@ -36,7 +38,6 @@ std::string without_heights(const CalledCycle& cycle) {
 // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift
 // with which they are entered. The others are judged where they are.
 std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShifts& carried) {
-  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
   const Move &original = matched.original, &found = *matched.found.back().move;
   if (is_robot_dialect(matched.found.back().program->dialect)) return std::nullopt;  // named targets
   const double shift = found.end_mm.z() - original.end_mm.z();
@@ -46,7 +47,7 @@ std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShift
         "this hole takes the height of its surface from a cycle's definition in one of both programs only",
         found.line};
   const bool held = original.handling == Handling::held;
-  if (takes_surface(original) && held && std::abs(shift - carried.height_mm) > rounding_mm)
+  if (takes_surface(original) && held && std::abs(shift - carried.height_mm) > height_rounding_mm)
     return Failure{
         ErrorKind::not_compensated, original.line,
         fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm", shift,
@@ -58,7 +59,6 @@ std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShift
 
 // All heights of a called cycle go along with its reference plane, the first of them.
 std::optional<Failure> call_failure(const MatchedMoves& matched) {
-  constexpr double rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three decimals
   const Move &original = matched.original, &found = *matched.found.back().move;
   const auto fail = [&](std::string what) {
     return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.line};
@@ -73,7 +73,7 @@ std::optional<Failure> call_failure(const MatchedMoves& matched) {
     if (!original.called->heights[i] != !found.called->heights[i])
       return fail("a height of the cycle is given in one of both programs only");
     const double other = found.called->heights_mm[i] - original.called->heights_mm[i];
-    if (original.called->heights[i] && std::abs(other - shift) > rounding_mm)
+    if (original.called->heights[i] && std::abs(other - shift) > height_rounding_mm)
       return fail(fmt::format(
           "a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
   }
