@@ -1,5 +1,6 @@
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include "counterflex/geometry/spectrum.hpp"
 #include "counterflex/statics/tip_stiffness.hpp"
@@ -12,19 +13,17 @@ std::optional<Matrix6> compliance_at_tip(const Model& model, const Configuration
                                          const Load& load, const Stage& stage, StaticsWork& work) {
   const Units units{model.mechanism.length};
   evaluate_all(model, configuration, stage, work.impl());
-  WholeSystem system = whole_system(model, configuration, {load, stage, nullptr}, work.impl());
+  const WholeSystem system = whole_system(model, configuration, {load, stage, nullptr}, work.impl());
   if (!(condition_bound(system) < largest_condition) && !std::isfinite(condition(system, units).value))
     return std::nullopt;
   const Matrix6 T = tip_from_platform(model.mechanism, configuration.X_MP);
-  system.gap.setZero();
-  Matrix6 C;
-  for (int k = 0; k < 6; ++k) {
-    system.gradient.setZero();
-    system.gradient.tail<6>() = -T.row(k).transpose().cwiseProduct(units.of_pose()) / units.energy();
-    const WholeStep step = solve_whole(system, std::nullopt, units);
-    C.col(k) = T * step.variables.tail<6>();
-  }
-  return C;
+  // Six unit wrenches, of which each changes the platform's balance alone.
+  const auto count = system.variables.size();
+  const auto rows = static_cast<Eigen::Index>(count);
+  HeldSteps wrenches{std::vector<bool>(count, false), Eigen::MatrixXd::Zero(rows, 6),
+                     Eigen::MatrixXd::Zero(rows, 6)};
+  wrenches.gradient.bottomRows<6>() = -(units.of_pose().asDiagonal() * T.transpose()) / units.energy();
+  return Matrix6(T * solve_held(system, wrenches, units).bottomRows<6>());
 }
 
 double stiffness_along(const Matrix6& compliance, const Vector3& direction) {
