@@ -144,7 +144,7 @@ class Errors(unittest.TestCase):
         infinite[0, 1, 3] = np.inf
         for wrong, words in ((pose[0], r'shape \(4, 4\), must be \(n, 4, 4\)'), (np.zeros((3, 3)), r'must be \(n, 4, 4\)'),
                              (infinite, r'poses\[0, 1, 3\] is inf'), (mirrored, r'poses\[0\] is not a pose'),
-                             (tall, r'poses\[0\] is not a pose'), ('text', ''), ([[1, 2], [3]], '')):
+                             (tall, r'poses\[0\] is not a pose'), ('text', ''), ([[1, 2], [3]], ''), (1j * pose, 'must be real')):
             for call in (machine.solve, machine.targets, machine.stiffness, machine.compliance):
                 with self.assertRaisesRegex(ValueError, words):
                     call(wrong)

@@ -1,4 +1,5 @@
 """Runs of programs in memory are those of the commands."""
+import concurrent.futures
 import csv
 import json
 import math
@@ -105,9 +106,22 @@ class Compensating(unittest.TestCase):
                             (lambda: counterflex.predict(TEXT, self.machine, [1, 2, math.nan]), 'wrench of 3 or 6')):
             with self.assertRaisesRegex(ValueError, words):
                 call()
+        with self.assertRaisesRegex(TypeError, 'a text is str or bytes, not int'):
+            counterflex.predict(5, self.machine)
         for option in ('tolerance', 'output', 'max_points'):
             with self.assertRaisesRegex(TypeError, f"unknown option '{option}'"):
                 counterflex.predict(TEXT, self.machine, **{option: 1})
+
+    def test_bytes_that_are_not_utf8_stay(self):
+        text = counterflex.compensate(TEXT.replace(b'CUTTER', b'FR\xc4SER'), self.machine, causes=False).text
+        self.assertIn(b'(FR\xc4SER 8 MM,', text)
+
+    def test_threads_run_programs_at_once(self):
+        tolerances = (0.01, 0.005, 0.002)
+        alone = [counterflex.compensate(TEXT, self.machine, tolerance_mm=tolerance).text for tolerance in tolerances]
+        with concurrent.futures.ThreadPoolExecutor(3) as pool:
+            runs = [pool.submit(counterflex.compensate, TEXT, self.machine, tolerance_mm=tolerance) for tolerance in tolerances]
+        self.assertEqual([run.result().text for run in runs], alone)
 
     def test_nothing_is_printed(self):
         code = ('import counterflex, pathlib; machine = counterflex.Machine.load("machine.toml"); '

@@ -32,7 +32,7 @@ __version__: str = _core.version
 Path = Union[str, "os.PathLike[str]"]
 Forces = Union[None, Path, Sequence[Path], ArrayLike]
 Text = Union[str, bytes]
-OptionValue = Union[bool, int, float, Path, Sequence[Path]]
+OptionValue = Union[None, bool, int, float, Path, Sequence[Path]]
 
 _STATUSES = np.array(_core.statuses)
 # What a run in memory does not have: files that are written, and files beside a program.
@@ -252,7 +252,7 @@ def compensate(
     name: of the program in messages; its ending is a hint for the dialect
     causes: whether waypoints have the causes of their deviation; a run takes about half the time without
     options: those of the command with ``_`` for ``-``: ``tolerance_mm=0.01``, ``work="machine"``, ``dialect="fanuc"``.
-        No file is written, so there is no ``output``. Environment and project files are not read.
+        None: the default. No file is written, so there is no ``output``. Environment and project files are not read.
 
     Raises `InputError` for wrong text, forces, options; `TypeError` for an option that does not exist.
     """
@@ -303,6 +303,8 @@ def identify(
 
 
 def _array(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.float64]:
+    if np.iscomplexobj(values):
+        raise ValueError(f"{name} has complex numbers, must be real")
     array = np.ascontiguousarray(values, dtype=np.float64)
     if array.shape[1:] != shape or array.ndim != 1 + len(shape):
         wanted = ", ".join(str(n) for n in ("n", *shape))
@@ -314,7 +316,9 @@ def _array(values: ArrayLike, name: str, shape: tuple[int, ...]) -> NDArray[np.f
 
 
 def _bytes_of(text: Text) -> bytes:
-    return text.encode("utf-8", "surrogateescape") if isinstance(text, str) else bytes(text)
+    if not isinstance(text, (str, bytes)):
+        raise TypeError(f"a text is str or bytes, not {type(text).__name__}")
+    return text.encode("utf-8", "surrogateescape") if isinstance(text, str) else text
 
 
 def _is_path(value: Any) -> bool:
@@ -339,7 +343,8 @@ def _given(forces: Forces, options: Mapping[str, OptionValue]) -> list[tuple[str
             near = difflib.get_close_matches(option, _OPTIONS, 1)
             hint = "; did you mean '{}'?".format(near[0].replace("-", "_")) if near else ""
             raise TypeError(f"unknown option '{key}'{hint}")
-        given.append((option, _texts_of(value)))
+        if value is not None:
+            given.append((option, _texts_of(value)))
     if forces is None:
         return given
     paths: list[Any] = [forces] if _is_path(forces) else list(forces)  # type: ignore[arg-type]
