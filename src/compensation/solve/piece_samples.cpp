@@ -230,8 +230,11 @@ void sample_closer(Slice& slice) {
   for (const Stretch& stretch : slice.stretches) {
     if (stretch.m == no_sample || stretch.piece >= slice.end) continue;
     const Vector6 a = slice.miss(stretch.a), m = slice.miss(stretch.m), b = slice.miss(stretch.b);
-    const bool is_safe = (m - (a + b) / 2).norm() <= small_share * tolerance &&
-                         std::max({a.norm(), m.norm(), b.norm()}) <= near_share * tolerance;
+    const auto [least, most] = std::minmax({a.norm(), m.norm(), b.norm()});
+    // All of it above the tolerance is compared with bands, which change slowly.
+    const bool is_far =
+        most <= near_share * tolerance || (slice.job.options.only_significant && least > tolerance);
+    const bool is_safe = is_far && (m - (a + b) / 2).norm() <= small_share * tolerance;
     for (int k = 0; k < eighths && !is_safe; ++k) {
       const double share = (2 * k + 1) / (2.0 * eighths);
       add_inside(slice, stretch.piece, stretch.v0 + share * (stretch.v1 - stretch.v0));
