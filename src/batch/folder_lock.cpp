@@ -1,8 +1,6 @@
 #include "counterflex/batch/folder_lock.hpp"
 
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 #include <unistd.h>
 
 #include <algorithm>
@@ -12,6 +10,7 @@
 #include <utility>
 
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/system.hpp"
 
 namespace counterflex {
 namespace {
@@ -35,16 +34,14 @@ std::string one_line(std::string text) {
 }
 
 std::string text_of_holder(std::string_view command) {
-  std::array<char, 256> host{};
-  if (::gethostname(host.data(), host.size() - 1) != 0) host[0] = '?';
-  return one_line(fmt::format("{} {} {}", host.data(), ::getpid(), command)) + '\n';
+  return one_line(fmt::format("{} {} {}", system::host_name(), ::getpid(), command)) + '\n';
 }
 
 /// "process PID on HOST (COMMAND)", from the text of the lock at `fd`.
 std::string holder(int fd) {
   std::array<char, longest_text + 1> bytes{};
-  const ssize_t n = ::pread(fd, bytes.data(), bytes.size(), 0);
-  const std::string text(bytes.data(), static_cast<std::size_t>(std::max<ssize_t>(n, 0)));
+  const std::ptrdiff_t n = system::read_at(fd, bytes.data(), bytes.size(), 0);
+  const std::string text(bytes.data(), static_cast<std::size_t>(std::max<std::ptrdiff_t>(n, 0)));
   const std::size_t host = text.find(' '), pid = text.find(' ', host + 1);
   if (host == std::string::npos || pid == std::string::npos)
     return "processes without a name, such as shards";
@@ -52,22 +49,17 @@ std::string holder(int fd) {
                               text.substr(0, host), text.substr(pid + 1, text.find('\n') - pid - 1)));
 }
 
-/// Ignores errors, as on a full disk: the lock works without this text.
-void write_text(int fd, std::string_view text) {
-  if (::ftruncate(fd, 0) != 0) return;
-  [[maybe_unused]] const ssize_t ignored = ::pwrite(fd, text.data(), text.size(), 0);
-}
-
 }  // namespace
 
 FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_view command) {
   const std::string state = folder + "/.counterflex", path = state + "/lock";
   make_folder(state);
-  fd_ = ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
+  fd_ = system::open_or_make(path);
   if (fd_ < 0) fail_locking(folder, errno, fmt::format("{}: {}", path, std::strerror(errno)));
-  if (::flock(fd_, (kind == LockKind::exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0) {
-    const bool alone = kind == LockKind::exclusive;
-    write_text(fd_, alone ? text_of_holder(command) : "");
+  const bool alone = kind == LockKind::exclusive;
+  if (system::lock(fd_, alone)) {
+    system::replace_text(fd_,
+                         alone ? text_of_holder(command) : "");  // on a full disk the lock works without it
     if (alone) owner_ = ::getpid();
     return;
   }
@@ -83,7 +75,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
 
 FolderLock::~FolderLock() {
   if (fd_ < 0) return;
-  if (owner_ == ::getpid()) write_text(fd_, "");
+  if (owner_ == ::getpid()) system::replace_text(fd_, "");
   ::close(fd_);
 }
 

@@ -1,13 +1,9 @@
 #include "files/descriptor.hpp"
 
-#include <fcntl.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstdlib>
 #include <cstring>
-#include <filesystem>
 
 #include "counterflex/files/input_error.hpp"
 
@@ -59,14 +55,6 @@ ssize_t read_some(int fd, char* to, std::size_t most) {
     const ssize_t n = ::read(fd, to, most);
     if (n >= 0 || errno != EINTR) return n;
   }
-}
-
-Descriptor nameless_file() {
-  std::error_code ignored;
-  std::string name = (std::filesystem::temp_directory_path(ignored) / "counterflex-XXXXXX").string();
-  Descriptor file(::mkostemp(name.data(), O_CLOEXEC));
-  if (file.get() >= 0) ::unlink(name.c_str());
-  return file;
 }
 
 }  // namespace counterflex

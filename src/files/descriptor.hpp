@@ -47,7 +47,4 @@ bool write_all(int fd, std::string_view bytes);
 /// Reads up to `most` bytes; returns -1 and sets errno on failure.
 ssize_t read_some(int fd, char* to, std::size_t most);
 
-/// An empty file without a name, in the folder for temporary files. Its descriptor is negative on failure.
-Descriptor nameless_file();
-
 }  // namespace counterflex

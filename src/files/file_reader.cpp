@@ -1,8 +1,5 @@
 #include "counterflex/files/file_reader.hpp"
 
-#include <fcntl.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cerrno>
 #include <optional>
@@ -10,6 +7,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -18,7 +16,7 @@ namespace {
 
 // Copies a pipe to a file that can be read again.
 Descriptor copied(const std::string& path, const Descriptor& pipe) {
-  Descriptor file = nameless_file();
+  Descriptor file(system::make_nameless_file());
   if (file.get() < 0) fail_reading(path);
   std::vector<char> buffer(portion);
   for (;;) {
@@ -34,12 +32,12 @@ Descriptor copied(const std::string& path, const Descriptor& pipe) {
 struct FileReader::State {
   std::string path;
   Descriptor file{};
-  off_t start = 0;                      ///< of the unread part of standard input
-  std::optional<struct stat> opened{};  ///< state of the file when it was opened, to detect changes
-  std::optional<std::string> held{};    ///< instead of a file
-  std::vector<FileReader> parts{};      ///< instead of a file
-  std::size_t part = 0;                 ///< the part that is read
-  std::size_t next = 0;                 ///< next byte to read, counted from `start`
+  off_t start = 0;                            ///< of the unread part of standard input
+  std::optional<system::FileFacts> opened{};  ///< state of the file when it was opened, to detect changes
+  std::optional<std::string> held{};          ///< instead of a file
+  std::vector<FileReader> parts{};            ///< instead of a file
+  std::size_t part = 0;                       ///< the part that is read
+  std::size_t next = 0;                       ///< next byte to read, counted from `start`
   std::optional<Sha256> hash{};
   std::size_t hashed = 0;  ///< bytes included in `hash`
   std::string digits{};    ///< of the hash of the file, after its end has been read
@@ -71,14 +69,14 @@ struct FileReader::State {
 };
 
 FileReader::FileReader(const std::string& path) : state_(new State{.path = path}) {
-  Descriptor file(path == "-" ? STDIN_FILENO : ::open(path.c_str(), O_RDONLY | O_CLOEXEC));
-  struct stat facts {};
-  if (file.get() < 0 || ::fstat(file.get(), &facts) != 0) fail_reading(path);
-  if (S_ISDIR(facts.st_mode)) {
+  Descriptor file(path == "-" ? STDIN_FILENO : system::open_to_read(path));
+  const auto facts = file.get() < 0 ? std::nullopt : system::facts_of(file.get());
+  if (!facts) fail_reading(path);
+  if (facts->kind == system::FileKind::folder) {
     errno = EISDIR;
     fail_reading(path);
   }
-  const bool regular = S_ISREG(facts.st_mode);
+  const bool regular = facts->kind == system::FileKind::file;
   if (regular) {
     state_->start = ::lseek(file.get(), 0, SEEK_CUR);
     state_->opened = facts;
@@ -123,11 +121,9 @@ void FileReader::rewind() {
 void FileReader::refuse_change() const {
   for (const FileReader& part : state_->parts) part.refuse_change();
   if (!state_->opened) return;
-  struct stat now {};
-  const struct stat& then = *state_->opened;
-  const bool same = ::fstat(state_->file.get(), &now) == 0 && now.st_size == then.st_size &&
-                    now.st_mtim.tv_sec == then.st_mtim.tv_sec && now.st_mtim.tv_nsec == then.st_mtim.tv_nsec;
-  if (!same)
+  const auto now = system::facts_of(state_->file.get());
+  const system::FileFacts& then = *state_->opened;
+  if (!now || now->size != then.size || now->written_ns != then.written_ns)
     throw InputError(ErrorKind::transient_io, {state_->path}, "the file was changed while it was read");
 }
 

@@ -1,9 +1,5 @@
 #include "counterflex/files/file_writer.hpp"
 
-#include <fcntl.h>
-#include <sys/file.h>
-#include <sys/stat.h>
-
 #include <array>
 #include <atomic>
 #include <cerrno>
@@ -16,6 +12,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -58,25 +55,18 @@ std::pair<std::string, int> create_beside(const std::string& path) {
   static std::atomic<unsigned> counter{0};
   for (;;) {
     std::string name = temporary_name(path, ::getpid(), counter++);
-    const int fd = ::open(name.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-    if (fd >= 0) ::flock(fd, LOCK_EX | LOCK_NB);  // shows that its writer is running
+    const int fd = system::make_file(name);
     if (fd >= 0 || errno != EEXIST) return {std::move(name), fd};
   }
 }
 
-/// Devices and pipes are written directly: they cannot be replaced by renaming.
-bool is_device_or_pipe(mode_t mode) {
-  return !S_ISREG(mode) && !S_ISDIR(mode);
-}
-
-/// A pipe without a reader is an error: opening it would block for ever.
 Descriptor open_stream(const std::string& path) {
   if (path == "-") {
     std::fflush(stdout);
     return Descriptor(STDOUT_FILENO);
   }
-  Descriptor device(::open(path.c_str(), O_WRONLY | O_CLOEXEC | O_NONBLOCK));
-  if (device.get() < 0 || ::fcntl(device.get(), F_SETFL, O_WRONLY) != 0) fail_writing(path);
+  Descriptor device(system::open_stream(path));
+  if (device.get() < 0) fail_writing(path);
   return device;
 }
 
@@ -94,7 +84,7 @@ struct FileWriter::State {
   std::string digits{};  ///< of the hash, once it is complete
 
   ~State() {
-    if (!temporary.empty()) ::unlink(temporary.c_str());
+    if (!temporary.empty()) system::remove_file(temporary.c_str());
   }
   void flush() {
     if (!write_all(file.get(), buffer)) fail_writing(path);
@@ -103,10 +93,11 @@ struct FileWriter::State {
 };
 
 FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}) {
-  struct stat facts {};
-  const bool exists = path != "-" && ::stat(path.c_str(), &facts) == 0;
-  if (path == "-" || (exists && is_device_or_pipe(facts.st_mode))) {
-    state_->file = nameless_file();
+  const auto facts = path == "-" ? std::nullopt : system::facts_of(path);
+  const bool exists = facts.has_value();
+  // Devices and pipes are written directly: they cannot be replaced by renaming.
+  if (path == "-" || (exists && facts->kind == system::FileKind::stream)) {
+    state_->file = Descriptor(system::make_nameless_file());
   } else {
     std::error_code ignored;
     if (!exists && std::filesystem::is_symlink(std::filesystem::symlink_status(path, ignored)))
@@ -121,7 +112,7 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
       state_->known.emplace(name);
       state_->temporary = std::move(name);
     }
-    if (fd >= 0 && exists && ::fchmod(fd, facts.st_mode & 07777) != 0) fail_writing(path);
+    if (fd >= 0 && exists && !system::set_mode(fd, facts->mode)) fail_writing(path);
   }
   if (state_->file.get() < 0) fail_writing(path);
 }
@@ -158,7 +149,7 @@ void FileWriter::complete() {
   State& s = *state_;
   if (s.is_complete) return;
   s.flush();
-  if (!is_stream() && (::fsync(s.file.get()) != 0 || !s.file.close())) fail_writing(s.path);
+  if (!is_stream() && (!system::flush_to_disk(s.file.get()) || !s.file.close())) fail_writing(s.path);
   if (s.hash) s.digits = s.hash->digits();
   s.is_complete = true;
 }
@@ -182,7 +173,7 @@ void FileWriter::publish_files(const std::vector<FileWriter*>& files) {
 
 void FileWriter::rename() {
   State& s = *state_;
-  if (::rename(s.temporary.c_str(), s.target.c_str()) != 0) fail_writing(s.path);
+  if (!system::rename_file(s.temporary, s.target)) fail_writing(s.path);
   s.temporary.clear();
   s.known.reset();
 }
@@ -198,7 +189,7 @@ void FileWriter::send() {
 
 void remove_unpublished() noexcept {
   for (const UnpublishedName& name : unpublished)
-    if (name.complete) ::unlink(name.path);
+    if (name.complete) system::remove_file(name.path);
 }
 
 }  // namespace counterflex

@@ -1,14 +1,12 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/stat.h>
 
-#include <array>
 #include <cerrno>
 #include <cstring>
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -37,15 +35,13 @@ void make_folder(const std::string& path) {
   if (std::filesystem::is_directory(path, ignored)) return;
   const std::string above = folder_of(path);
   if (above != path) make_folder(above);
-  if (::mkdir(path.c_str(), 0777) != 0 && (errno != EEXIST || !std::filesystem::is_directory(path, ignored)))
+  if (!system::make_folder(path) && (errno != EEXIST || !std::filesystem::is_directory(path, ignored)))
     fail_at_folder(path, "make");
   sync_folder(above);
 }
 
 void sync_folder(const std::string& folder) {
-  const Descriptor descriptor(::open(folder.c_str(), O_RDONLY | O_DIRECTORY | O_CLOEXEC));
-  if ((descriptor.get() < 0 || ::fsync(descriptor.get()) != 0) && !cannot_be_synced(errno))
-    fail_at_folder(folder, "sync");
+  if (!system::flush_names_to_disk(folder) && !cannot_be_synced(errno)) fail_at_folder(folder, "sync");
 }
 
 }  // namespace counterflex

@@ -4,6 +4,7 @@
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 #include "files/descriptor.hpp"
 
 namespace counterflex {
@@ -21,14 +22,13 @@ Spool::~Spool() {
 }
 
 void Spool::append(std::string_view bytes) {
-  if (fd_ < 0) fd_ = nameless_file().release();
-  if (fd_ < 0 || !write_all(fd_, bytes)) fail_keeping();
+  if (fd_ < 0) fd_ = system::make_nameless_file();
+  if (fd_ < 0 || !system::append(fd_, bytes)) fail_keeping();
 }
 
 void Spool::read(std::size_t offset, char* to, std::size_t count) const {
   while (count > 0) {
-    const ssize_t n = ::pread(fd_, to, count, static_cast<off_t>(offset));
-    if (n < 0 && errno == EINTR) continue;
+    const std::ptrdiff_t n = system::read_at(fd_, to, count, offset);
     if (n <= 0) fail_keeping();
     to += n;
     offset += static_cast<std::size_t>(n);

@@ -1,6 +1,4 @@
-#include <fcntl.h>
 #include <fmt/format.h>
-#include <sys/file.h>
 
 #include <filesystem>
 #include <map>
@@ -8,7 +6,7 @@
 
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
-#include "files/descriptor.hpp"
+#include "counterflex/files/system.hpp"
 
 namespace counterflex {
 namespace {
@@ -28,12 +26,6 @@ std::filesystem::path written_path(const std::string& path) {
   return error ? std::filesystem::path(path) : target;
 }
 
-/// Whether no process is writing the file. A writer holds its lock.
-bool is_abandoned(const std::filesystem::path& file) {
-  const Descriptor descriptor(::open(file.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-  return descriptor.get() >= 0 && ::flock(descriptor.get(), LOCK_EX | LOCK_NB) == 0;
-}
-
 std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std::string>& names,
                          bool abandoned_alone) {
   std::error_code ignored;
@@ -47,7 +39,9 @@ std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std
   }
   std::size_t removed = 0;
   for (const std::filesystem::path& file : left)
-    if ((!abandoned_alone || is_abandoned(file)) && std::filesystem::remove(file, ignored)) ++removed;
+    if (!(abandoned_alone && system::is_being_written(file.string())) &&
+        std::filesystem::remove(file, ignored))
+      ++removed;
   return removed;
 }
 

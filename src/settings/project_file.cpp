@@ -1,10 +1,8 @@
 #include "counterflex/settings/project_file.hpp"
 
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <filesystem>
 
+#include "counterflex/files/system.hpp"
 #include "settings/read_settings.hpp"
 
 namespace counterflex {
@@ -18,16 +16,10 @@ std::string short_name(const fs::path& path, const fs::path& from) {
   return relative.empty() || relative.size() > path.string().size() ? path.string() : relative;
 }
 
-bool is_standard_output(const fs::path& path) {
-  struct stat output, file;
-  return ::fstat(STDOUT_FILENO, &output) == 0 && S_ISREG(output.st_mode) &&
-         ::stat(path.c_str(), &file) == 0 && output.st_dev == file.st_dev && output.st_ino == file.st_ino;
-}
-
 bool is_project_file(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored)) && !fs::is_directory(path, ignored) &&
-         !is_standard_output(path);
+         !system::is_standard_output(path.string());
 }
 
 }  // namespace

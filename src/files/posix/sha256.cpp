@@ -40,10 +40,4 @@ std::string Sha256::digits() {
   return text;
 }
 
-std::string sha256(std::string_view bytes) {
-  Sha256 hash;
-  hash.add(bytes);
-  return hash.digits();
-}
-
 }  // namespace counterflex
