@@ -1,12 +1,15 @@
 /// counterflex: corrects machining programs for the errors of their machine.
 #include <malloc.h>
 
+#include <vector>
+
 #include "commands/commands.hpp"
 #include "counterflex/report/formats.hpp"
 #include "process/exit_status.hpp"
 #include "process/guarded.hpp"
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
+#include "process/terminal.hpp"
 #include "process/version.hpp"
 #include "run/outputs.hpp"
 #include "settings/command_line.hpp"
@@ -64,7 +67,7 @@ ExitStatus run_command(const Options& options, Console& console) {
   return ExitStatus(ErrorKind::internal);
 }
 
-ExitStatus run(int argc, char** argv) {
+ExitStatus run(int argc, const char* const* argv) {
   Console plain;
   return guarded(plain, [&]() -> ExitStatus {
     const auto command_line = read_command_line(argc, argv);
@@ -91,7 +94,8 @@ void keep_freed_memory() {
 }  // namespace counterflex::cli
 
 int main(int argc, char** argv) {
+  const std::vector<const char*> arguments = counterflex::cli::begin_process(argc, argv);
   counterflex::cli::end_on_signals();
   counterflex::cli::keep_freed_memory();
-  return counterflex::cli::run(argc, argv).number();
+  return counterflex::cli::run(static_cast<int>(arguments.size()), arguments.data()).number();
 }

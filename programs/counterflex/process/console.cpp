@@ -1,7 +1,6 @@
 #include "process/console.hpp"
 
 #include <fmt/format.h>
-#include <poll.h>
 #include <unistd.h>
 
 #include <charconv>
@@ -12,6 +11,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/program/program_files.hpp"
 #include "process/progress.hpp"
+#include "process/terminal.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -20,27 +20,8 @@ constexpr std::size_t warnings_shown = 20;
 
 bool colours_on(int descriptor) {
   const char* no_colour = std::getenv("NO_COLOR");
-  const char* terminal = std::getenv("TERM");
   if (no_colour != nullptr && *no_colour != '\0') return false;
-  return ::isatty(descriptor) == 1 && terminal != nullptr && std::string_view(terminal) != "dumb";
-}
-
-/// By the locale in the first of these variables that is set.
-bool shows_utf8(int descriptor) {
-  if (::isatty(descriptor) != 1) return false;
-  for (const char* name : {"LC_ALL", "LC_CTYPE", "LANG"}) {
-    const char* value = std::getenv(name);
-    if (value == nullptr || *value == '\0') continue;
-    const std::string_view locale(value);
-    return locale.find("UTF-8") != std::string_view::npos || locale.find("utf8") != std::string_view::npos;
-  }
-  return false;
-}
-
-/// Whether standard error accepts text now. A stopped terminal does not.
-bool is_ready() {
-  pollfd stream{STDERR_FILENO, POLLOUT, 0};
-  return ::poll(&stream, 1, 0) > 0 && (stream.revents & POLLOUT) != 0;
+  return has_colours(descriptor);
 }
 
 /// Ignores errors: there is no other place to report them.
@@ -64,8 +45,8 @@ Console::Console(Loudness loudness, ConsoleListener listener)
     : listener_(std::move(listener)),
       quiet_(loudness.quiet),
       verbose_(loudness.verbose && !loudness.quiet),
-      terminal_(::isatty(STDERR_FILENO) == 1),
-      one_terminal_(terminal_ && ::isatty(STDOUT_FILENO) == 1),
+      terminal_(is_terminal(STDERR_FILENO)),
+      one_terminal_(terminal_ && is_terminal(STDOUT_FILENO)),
       colour_(colours_on(STDERR_FILENO)),
       colour_out_(colours_on(STDOUT_FILENO)),
       marks_out_(shows_utf8(STDOUT_FILENO)),
@@ -76,7 +57,7 @@ Console::~Console() {
 }
 
 void Console::erase_progress() {
-  if (showing_progress_ && is_ready()) write_error("\r\033[K");
+  if (showing_progress_ && is_ready(STDERR_FILENO)) write_error("\r\033[K");
   showing_progress_ = false;
 }
 
@@ -139,7 +120,7 @@ void Console::progress(std::string_view what) {
 }
 
 void Console::progress_line(std::string_view line) {
-  if (quiet_ || !terminal_ || !is_ready()) return;
+  if (quiet_ || !terminal_ || !is_ready(STDERR_FILENO)) return;
   erase_progress();
   write_error(without_controls(line));
   showing_progress_ = true;

@@ -1,6 +1,7 @@
 #pragma once
 /// Interrupts. An interrupted run leaves no unfinished files.
 #include <csignal>
+#include <memory>
 #include <optional>
 
 namespace counterflex::cli {
@@ -46,7 +47,8 @@ class HeldSignals {
   HeldSignals& operator=(const HeldSignals&) = delete;
 
  private:
-  sigset_t before_;
+  struct State;
+  std::unique_ptr<State> before_;
 };
 
 }  // namespace counterflex::cli

@@ -1,7 +1,6 @@
 #include "settings/command_line.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <CLI/CLI.hpp>
 #include <algorithm>
@@ -11,6 +10,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/settings/environment.hpp"
 #include "process/standard_output.hpp"
+#include "process/terminal.hpp"
 #include "process/version.hpp"
 #include "settings/command_options.hpp"
 #include "settings/completion.hpp"
@@ -177,7 +177,7 @@ bool reads_sources(const Options& options) {
 
 std::vector<SettingRemark> remarks_on_environment() {
   std::vector<SettingRemark> remarks;
-  for (const auto& [name, meant] : misspelt_variables(environ)) {
+  for (const auto& [name, meant] : misspelt_variables(environment_variables())) {
     SettingRemark& remark = remarks.emplace_back();
     remark.where.file = name;
     remark.what = fmt::format("is not a setting and has no effect; did you mean {}?", meant);
@@ -215,7 +215,7 @@ std::variant<Options, std::optional<ErrorKind>> read_command_line(int argc, cons
   if (options.sources.config && options.sources.no_config)
     throw InputError(ErrorKind::usage, {}, "--config and --no-config exclude each other");
   options.remarks = remarks_on_environment();
-  options.sources.environment = read_environment(environ);
+  options.sources.environment = read_environment(environment_variables());
   if (!reads_sources(options)) return with_settings(options, {options.sources.flags});
   const ProgramLayers found = layers_of(options.sources, placing_program(options));
   options.project_file = found.project_file;

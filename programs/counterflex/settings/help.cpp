@@ -1,7 +1,6 @@
 #include "settings/help.hpp"
 
 #include <fmt/format.h>
-#include <sys/ioctl.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -10,6 +9,7 @@
 #include <cstdlib>
 
 #include "counterflex/files/text.hpp"
+#include "process/terminal.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -31,8 +31,7 @@ std::size_t width_of_terminal() {
   const char* variable = std::getenv("COLUMNS");
   if (const auto number = read_number(variable == nullptr ? "" : variable); number && *number > 0)
     columns = static_cast<std::size_t>(std::min(*number, 1e4));
-  winsize window{};
-  if (columns == 0 && ::ioctl(STDOUT_FILENO, TIOCGWINSZ, &window) == 0) columns = window.ws_col;
+  if (columns == 0) columns = columns_of(STDOUT_FILENO);
   return columns == 0 ? most_width : std::clamp(columns, least_width, most_width);
 }
 

@@ -84,13 +84,17 @@ void unblock_signals() {
   ::pthread_sigmask(SIG_UNBLOCK, &ending, nullptr);
 }
 
-HeldSignals::HeldSignals() {
+struct HeldSignals::State {
+  sigset_t set;
+};
+
+HeldSignals::HeldSignals() : before_(new State) {
   const sigset_t held = ending_set();
-  ::pthread_sigmask(SIG_BLOCK, &held, &before_);
+  ::pthread_sigmask(SIG_BLOCK, &held, &before_->set);
 }
 
 HeldSignals::~HeldSignals() {
-  ::pthread_sigmask(SIG_SETMASK, &before_, nullptr);
+  ::pthread_sigmask(SIG_SETMASK, &before_->set, nullptr);
 }
 
 }  // namespace counterflex::cli
