@@ -50,13 +50,6 @@ std::optional<FileFacts> facts_of(const std::string& path) {
   return facts(found);
 }
 
-bool is_standard_output(const std::string& path) {
-  const auto output = facts_of(STDOUT_FILENO);
-  if (!output || output->kind != FileKind::file) return false;
-  const auto file = facts_of(path);
-  return file && file->device == output->device && file->inode == output->inode;
-}
-
 int open_to_read(const std::string& path) {
   return ::open(path.c_str(), O_RDONLY | O_CLOEXEC);
 }

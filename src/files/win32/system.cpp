@@ -168,13 +168,6 @@ std::optional<FileFacts> facts_of(const std::string& path) {
   return facts(file.get());
 }
 
-bool is_standard_output(const std::string& path) {
-  const auto output = facts_of(STDOUT_FILENO);
-  if (!output || output->kind != FileKind::file) return false;
-  const auto file = facts_of(path);
-  return file && file->device == output->device && file->inode == output->inode;
-}
-
 int open_to_read(const std::string& path) {
   const HANDLE file = open(path, GENERIC_READ, share_all, OPEN_EXISTING, FILE_ATTRIBUTE_NORMAL);
   std::error_code ignored;
