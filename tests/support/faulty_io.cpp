@@ -11,7 +11,8 @@
 // - FAULTY_FROM: or the first of those that fail, as on a disk that is full and stays so
 // - FAULTY_ONE_IN: or each of them fails with one chance in so many, by FAULTY_SEED
 // - FAULTY_WITH: ENOSPC, EIO, EROFS, EINVAL ..., or kill: this process, or kill-group: its group, after
-//   half of what it writes; or empty: the call succeeds, and its file becomes empty before it
+//   half of what it writes; or empty: the call succeeds, and its file becomes empty before it; or stop-group:
+//   the group stops before the call, until it gets SIGCONT, and the call succeeds
 // - FAULTY_LOG: a file that gets a line for each fault: the call and the path
 // - FAULTY_TRACE: a file that gets a line for each call that is counted: the call and the path, of a rename
 // the old
@@ -42,6 +43,7 @@ struct Plan {
   int error = 0;
   int kills = 0;  ///< 1: the process, 2: its group
   bool empties = false;
+  bool stops = false;                           ///< its group
   std::atomic<unsigned long>* count = nullptr;  ///< shared with forked processes
 };
 
@@ -73,8 +75,9 @@ const Plan* made_plan() {
   const std::string with = variable("FAULTY_WITH");
   plan.kills = with == "kill" ? 1 : with == "kill-group" ? 2 : 0;
   plan.empties = with == "empty";
+  plan.stops = with == "stop-group";
   plan.error = error_of(with);
-  const bool has_fault = plan.kills > 0 || plan.empties || plan.error != 0;
+  const bool has_fault = plan.kills > 0 || plan.empties || plan.stops || plan.error != 0;
   if (!has_fault && (plan.trace.empty() || !with.empty())) refuse_plan("FAULTY_WITH is not an error");
   void* shared =
       ::mmap(nullptr, sizeof *plan.count, PROT_READ | PROT_WRITE, MAP_SHARED | MAP_ANONYMOUS, -1, 0);
@@ -167,6 +170,11 @@ bool fails(const char* call, Place place, const std::string& from = "") {
   remember(p->log, path, call);
   if (p->empties) {
     (void)!next<int(const char*, off_t)>("truncate")(path.c_str(), 0);
+    errno = before;
+    return false;
+  }
+  if (p->stops) {
+    ::kill(0, SIGSTOP);
     errno = before;
     return false;
   }

@@ -115,6 +115,13 @@ class Batch:
                                 stdin=subprocess.DEVNULL, stdout=subprocess.DEVNULL, stderr=subprocess.PIPE, text=True,
                                 errors="replace", start_new_session=True, **process)
 
+    def start_stopped(self, *flags, at, **faults):
+        """Stopped with its group before the call `at`, until SIGCONT."""
+        process = self.start(*flags, faults={"WITH": "stop-group", "AT": at} | faults)
+        _, status = os.waitpid(process.pid, os.WUNTRACED)
+        check(os.WIFSTOPPED(status), f"it does not stop at call {at}: status {status}")
+        return process
+
     def run(self, *flags, **how):
         """The exit status, and the text on standard error."""
         process = self.start(*flags, **how)
