@@ -2,6 +2,7 @@
 
 #include <cassert>
 
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/coupon.hpp"
 
@@ -30,7 +31,7 @@ std::string place_line(const std::vector<Actuator>& all, const std::string& row,
   }
   for (const double value : state.F) text += fmt::format(",{:.7g}", value);
   for (const double value : place.p_MT) text += fmt::format(",{:.6f}", value / mm);
-  for (const double value : place.weight) text += fmt::format(",{:.9g}", value);
+  for (const double value : place.weight) text += fmt::format(",{:.9g}", rounded(value, 12));
   return text + fmt::format(",{:.9g}\n", share);
 }
 

@@ -63,10 +63,11 @@ std::string to_csv(const AnalysisReport& report) {
   for (std::size_t i = 0; i < report.poses.size(); ++i) {
     if (!report.poses[i].curve) continue;
     for (const CurvePoint& point : report.poses[i].curve->points) {
-      const Vector3 p = point.X_MT.p / mm;
-      text +=
-          fmt::format("{},{:.9f},{:.12g},{:.12g},{},{:.9f},{:.9f},{:.9f}\n", i + 1, point.displacement / mm,
-                      point.force, point.stiffness, point.stable ? 1 : 0, p.x(), p.y(), p.z());
+      // A force of less than a micronewton is what rounding leaves of zero.
+      text += fmt::format("{},{},{:.12g},{:.12g},{}", i + 1, format_fixed(point.displacement / mm, 9),
+                          rounded(point.force, 6), point.stiffness, point.stable ? 1 : 0);
+      for (const double x : point.X_MT.p) text += "," + format_fixed(x / mm, 9);
+      text += "\n";
     }
   }
   return text;

@@ -21,7 +21,7 @@ std::string vectors(const PathCurves& curves, std::array<float, 3> Stretch::*vec
   std::vector<float> values;
   for (const Stretch& stretch : curves.stretches())
     values.insert(values.end(), (stretch.*vector).begin(), (stretch.*vector).end());
-  return encoded(values);
+  return encoded(std::move(values));
 }
 
 /// Whether all values are equal; two unknown values count as equal.

@@ -6,13 +6,13 @@ namespace counterflex {
 
 namespace {
 
-// Significant: loads differ in size by many orders.
-constexpr int peak_digits = 10, place_digits = 7;
+// Significant: loads differ in size by many orders. More digits of a load would depend on the processor.
+constexpr int load_digits = 7, limit_digits = 10;
 
 Json peak_json(const LoadPeak& peak) {
-  return {{"largest", significant(peak.value, peak_digits)},
+  return {{"largest", significant(peak.value, load_digits)},
           {"line", peak.line},
-          {"limit", peak.limit ? significant(*peak.limit, peak_digits) : Json(nullptr)}};
+          {"limit", peak.limit ? significant(*peak.limit, limit_digits) : Json(nullptr)}};
 }
 
 Json chain_peaks_json(const LoadsOfChain& chain) {
@@ -24,7 +24,7 @@ Json chain_peaks_json(const LoadsOfChain& chain) {
 Json list_of(const LoadsAlong& along, std::size_t chain, LoadKind kind) {
   Json list = Json::array();
   for (const LoadsAtPlace& place : along.places)
-    list.push_back(significant(shown_value(place.chains[chain], kind), place_digits));
+    list.push_back(significant(shown_value(place.chains[chain], kind), load_digits));
   return list;
 }
 

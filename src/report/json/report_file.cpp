@@ -115,20 +115,20 @@ ReportFile read_json(const std::string& path, WithCurves with) {
 
 std::string page_beside(const std::string& path) {
   if (!path.ends_with(".json")) return "";
-  return fs::path(path).replace_extension(".html").string();
+  return fs::path(path).replace_extension(".html").generic_string();
 }
 
 ReportFile read_report_file(const std::string& path, WithCurves with) {
   ReportFile file = is_page(path) ? read_page(path, with) : read_json(path, with);
-  file.name = path == "-" ? "stdin" : fs::path(path).stem().string();
+  file.name = path == "-" ? "stdin" : fs::path(path).stem().generic_string();
   return file;
 }
 
 void tell_apart(ReportFile& a, ReportFile& b) {
   fs::path folder_a = fs::path(a.path).parent_path(), folder_b = fs::path(b.path).parent_path();
   while (a.name == b.name && (folder_a.has_filename() || folder_b.has_filename())) {
-    if (folder_a.has_filename()) a.name = (folder_a.filename() / a.name).string();
-    if (folder_b.has_filename()) b.name = (folder_b.filename() / b.name).string();
+    if (folder_a.has_filename()) a.name = (folder_a.filename() / a.name).generic_string();
+    if (folder_b.has_filename()) b.name = (folder_b.filename() / b.name).generic_string();
     folder_a = folder_a.parent_path();
     folder_b = folder_b.parent_path();
   }

@@ -23,7 +23,7 @@ Json absolute_path(const std::string& path) {
   if (path.empty() || path == "-") return nullptr;
   std::error_code error;
   const auto absolute = std::filesystem::absolute(path, error);
-  return error ? Json(path) : Json(absolute.lexically_normal().string());
+  return error ? Json(path) : Json(absolute.lexically_normal().generic_string());
 }
 
 }  // namespace

@@ -14,6 +14,9 @@ namespace {
 // Results on different processors differ by less than this: the first of such loads counts as the largest.
 constexpr double indistinct_load = 1e-7;
 
+// In the unit of its key: what is left of zero by the rounding of sums of loads.
+constexpr double no_load = 1e-9;
+
 LoadPeak peak_of(const LoadsAlong& along, std::size_t chain, LoadKind kind) {
   LoadPeak peak;
   double named = 0;  // the value in the reported line
@@ -49,7 +52,8 @@ std::string four_digits(double value) {
 }  // namespace
 
 double shown_value(const ChainLoads& loads, LoadKind kind) {
-  return value_of(loads, kind) / name_of(kind).si;
+  const double value = value_of(loads, kind) / name_of(kind).si;
+  return value < no_load ? 0 : value;
 }
 
 double share_of_limit(const LoadPeak& peak) {

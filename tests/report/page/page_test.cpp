@@ -143,6 +143,7 @@ TEST_CASE("curves are written as the bytes of their numbers") {
   CHECK(std::isnan(array_of<float>(document["quantities"]["before_mm"]["largest"])[0]));
   CHECK_FALSE(document["quantities"]["after_mm"].contains("least"));
   CHECK(array_of<float>(document["place_mm"]).size() == 3 * n);
+  CHECK(std::isnan(array_of<float>(document["place_before_mm"])[0]));  // unknown, not 0
 }
 
 TEST_CASE("directions are written while each stretch has one waypoint") {
