@@ -6,7 +6,6 @@
 #include <algorithm>
 #include <array>
 #include <cerrno>
-#include <cstring>
 #include <utility>
 
 #include "counterflex/files/files.hpp"
@@ -55,7 +54,7 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
   const std::string state = folder + "/.counterflex", path = state + "/lock";
   make_folder(state);
   fd_ = system::open_or_make(path);
-  if (fd_ < 0) fail_locking(folder, errno, fmt::format("{}: {}", path, std::strerror(errno)));
+  if (fd_ < 0) fail_locking(folder, errno, fmt::format("{}: {}", path, system::reason_of(errno)));
   const bool alone = kind == LockKind::exclusive;
   if (system::lock(fd_, alone)) {
     system::replace_text(fd_,
@@ -64,13 +63,13 @@ FolderLock::FolderLock(const std::string& folder, LockKind kind, std::string_vie
     return;
   }
   const int error = errno;
-  if (file_system_has_no_locks(error)) why_not_ = std::strerror(error);
+  if (file_system_has_no_locks(error)) why_not_ = system::reason_of(error);
   const std::string other = error == EWOULDBLOCK ? holder(fd_) : "";
   if (why_not_.empty()) ::close(std::exchange(fd_, -1));
   if (error == EWOULDBLOCK)
     throw InputError(ErrorKind::transient_io, {folder},
                      fmt::format("another run is active in this folder: {}", other));
-  if (why_not_.empty()) fail_locking(folder, error, std::strerror(error));
+  if (why_not_.empty()) fail_locking(folder, error, system::reason_of(error));
 }
 
 FolderLock::~FolderLock() {

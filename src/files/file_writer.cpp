@@ -104,7 +104,7 @@ FileWriter::FileWriter(const std::string& path) : state_(new State{.path = path}
       throw InputError(ErrorKind::usage, {path},
                        "is a symbolic link to a file that does not exist, or to itself; remove it, or give "
                        "another name");
-    state_->target = exists ? std::filesystem::canonical(path, ignored).string() : path;
+    state_->target = exists ? std::filesystem::canonical(path, ignored).generic_string() : path;
     if (state_->target.empty()) state_->target = path;
     auto [name, fd] = create_beside(state_->target);
     state_->file = Descriptor(fd);

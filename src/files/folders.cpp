@@ -1,7 +1,6 @@
 #include <fmt/format.h>
 
 #include <cerrno>
-#include <cstring>
 #include <filesystem>
 
 #include "counterflex/files/files.hpp"
@@ -14,7 +13,7 @@ namespace {
 
 [[noreturn]] void fail_at_folder(const std::string& folder, const char* what) {
   throw InputError(kind_of_writing(errno), {folder},
-                   fmt::format("cannot {} the folder: {}", what, std::strerror(errno)));
+                   fmt::format("cannot {} the folder: {}", what, system::reason_of(errno)));
 }
 
 /// Ignores folders that are writable but not readable, and file systems that cannot sync folders. A file
@@ -26,7 +25,7 @@ bool cannot_be_synced(int error) {
 }  // namespace
 
 std::string folder_of(const std::string& path) {
-  const std::string folder = std::filesystem::path(path).parent_path().string();
+  const std::string folder = std::filesystem::path(path).parent_path().generic_string();
   return folder.empty() ? "." : folder;
 }
 

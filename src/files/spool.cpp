@@ -1,5 +1,4 @@
 #include <cerrno>
-#include <cstring>
 #include <string>
 
 #include "counterflex/files/files.hpp"
@@ -12,7 +11,7 @@ namespace {
 
 [[noreturn]] void fail_keeping() {
   throw InputError(ErrorKind::transient_io, {},
-                   std::string("cannot keep what was read in a temporary file: ") + std::strerror(errno));
+                   "cannot keep what was read in a temporary file: " + system::reason_of(errno));
 }
 
 }  // namespace

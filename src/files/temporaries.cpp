@@ -32,14 +32,14 @@ std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std
   std::vector<std::filesystem::path> left;
   for (std::filesystem::directory_iterator entry(folder, ignored), end; entry != end;
        entry.increment(ignored)) {
-    const std::string name = entry->path().filename().string();
+    const std::string name = entry->path().filename().generic_string();
     if (names.contains(std::string(wanted_name(name))) &&
         entry->symlink_status(ignored).type() == std::filesystem::file_type::regular)
       left.push_back(entry->path());
   }
   std::size_t removed = 0;
   for (const std::filesystem::path& file : left)
-    if (!(abandoned_alone && system::is_being_written(file.string())) &&
+    if (!(abandoned_alone && system::is_being_written(file.generic_string())) &&
         std::filesystem::remove(file, ignored))
       ++removed;
   return removed;
@@ -53,7 +53,7 @@ std::string temporary_stem(const std::string& name) {
 }
 
 std::string temporary_name(const std::string& path, long pid, unsigned counter) {
-  const std::size_t name = path.find_last_of('/') + 1;  // 0 without a slash
+  const std::size_t name = path.size() - std::filesystem::path(path).filename().generic_string().size();
   return fmt::format("{}{}.{}-{}{}", path.substr(0, name), temporary_stem(path.substr(name)), pid, counter,
                      temporary_ending);
 }
@@ -75,7 +75,7 @@ std::size_t sweep(const std::vector<std::string>& paths, bool abandoned_alone) {
     const std::filesystem::path file = written_path(path);
     if (!file.filename().empty())
       names[file.has_parent_path() ? file.parent_path() : "."].insert(
-          temporary_stem(file.filename().string()));
+          temporary_stem(file.filename().generic_string()));
   }
   std::size_t removed = 0;
   for (const auto& [folder, files] : names) removed += sweep_folder(folder, files, abandoned_alone);

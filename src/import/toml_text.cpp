@@ -53,11 +53,11 @@ std::string toml_string(std::string_view text) {
 }
 
 std::string file_name(const std::string& file) {
-  return comment_text(std::filesystem::path(file).filename().string());
+  return comment_text(std::filesystem::path(file).filename().generic_string());
 }
 
 std::string file_stem(const std::string& file) {
-  return comment_text(std::filesystem::path(file).stem().string());
+  return comment_text(std::filesystem::path(file).stem().generic_string());
 }
 
 std::string identifier(std::string_view text) {

@@ -18,7 +18,7 @@ constexpr std::size_t portion_size = 1 << 18;
 
 /// The line before a file. A newline before it ends the last line of the file before.
 std::string line_before(const std::string& path) {
-  return fmt::format("\n{}{}\n", file_mark, fs::path(path).filename().string());
+  return fmt::format("\n{}{}\n", file_mark, fs::path(path).filename().generic_string());
 }
 
 /// Number of lines that a file ends. Refuses a file with a line that looks like the one between files.
@@ -47,7 +47,7 @@ int count_newlines(const std::string& path) {
 }  // namespace
 
 bool takes_data_lists(const std::string& program) {
-  return is_word(fs::path(program).extension().string(), ".SRC");
+  return is_word(fs::path(program).extension().generic_string(), ".SRC");
 }
 
 std::string data_list_beside(const std::string& program) {
@@ -56,7 +56,7 @@ std::string data_list_beside(const std::string& program) {
   for (const char* extension : {".dat", ".DAT", ".Dat"}) {
     const fs::path list = fs::path(path).replace_extension(extension);
     std::error_code ignored;
-    if (fs::is_regular_file(list, ignored)) return list.string();
+    if (fs::is_regular_file(list, ignored)) return list.generic_string();
   }
   return {};
 }

@@ -2,6 +2,7 @@
 
 #include <string_view>
 
+#include "counterflex/files/system.hpp"
 #include "counterflex/files/text.hpp"
 #include "settings/keys.hpp"
 
@@ -18,13 +19,13 @@ std::string_view value_of_variable(const char* const* variables, const std::stri
   return {};
 }
 
-std::vector<std::string> split_at_colons(std::string_view text) {
+std::vector<std::string> split_list(std::string_view text) {
   std::vector<std::string> parts;
   for (;;) {
-    const std::size_t colon = text.find(':');
-    if (colon != 0 && !text.empty()) parts.emplace_back(text.substr(0, colon));
-    if (colon == std::string_view::npos) return parts;
-    text.remove_prefix(colon + 1);
+    const std::size_t end = text.find(system::list_separator);
+    if (end != 0 && !text.empty()) parts.emplace_back(text.substr(0, end));
+    if (end == std::string_view::npos) return parts;
+    text.remove_prefix(end + 1);
   }
 }
 
@@ -40,7 +41,7 @@ bool is_list(setting_file::Kind kind) {
 
 std::vector<std::string> values_of(std::string_view text, setting_file::Kind kind) {
   using setting_file::Kind;
-  if (is_list(kind)) return split_at_colons(text);
+  if (is_list(kind)) return split_list(text);
   switch (kind) {
     case Kind::report:
       return name_or_truth(text, setting_file::report_beside_output);
@@ -58,8 +59,8 @@ std::vector<Setting> read_environment(const char* const* variables) {
   for (const setting_file::Key& key : setting_file::keys) {
     const std::string name = setting_file::variable_of(key.option);
     const std::string_view text = value_of_variable(variables, name);
-    const bool only_colons = is_list(key.kind) && split_at_colons(text).empty();
-    if (text.empty() || only_colons) continue;
+    const bool only_separators = is_list(key.kind) && split_list(text).empty();
+    if (text.empty() || only_separators) continue;
     settings.push_back({std::string(key.option), values_of(text, key.kind), {name}, Origin::environment});
   }
   return settings;

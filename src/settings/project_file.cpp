@@ -12,14 +12,15 @@ namespace fs = std::filesystem;
 
 /// The shorter of the two names of `path`.
 std::string short_name(const fs::path& path, const fs::path& from) {
-  const std::string relative = path.lexically_relative(from).string();
-  return relative.empty() || relative.size() > path.string().size() ? path.string() : relative;
+  const std::string relative = path.lexically_relative(from).generic_string();
+  return relative.empty() || relative.size() > path.generic_string().size() ? path.generic_string()
+                                                                            : relative;
 }
 
 bool is_project_file(const fs::path& path) {
   std::error_code ignored;
   return fs::exists(fs::symlink_status(path, ignored)) && !fs::is_directory(path, ignored) &&
-         !system::is_standard_output(path.string());
+         !system::is_standard_output(path.generic_string());
 }
 
 }  // namespace

@@ -10,11 +10,11 @@
 namespace counterflex::setting_file {
 
 std::string folder_of(const std::string& file) {
-  return std::filesystem::path(file).parent_path().string();
+  return std::filesystem::path(file).parent_path().generic_string();
 }
 
 std::string joined_path(const std::string& folder, const std::string& path) {
-  return path == "-" ? path : (std::filesystem::path(folder) / path).string();
+  return path == "-" ? path : (std::filesystem::path(folder) / path).generic_string();
 }
 
 void check_format_of(const toml::table& document, std::string_view format, std::string_view what,

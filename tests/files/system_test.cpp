@@ -6,11 +6,13 @@
 #include <array>
 #include <cerrno>
 #include <filesystem>
+#include <fstream>
 #include <string>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/files/files.hpp"
+#include "counterflex/files/input_error.hpp"
 
 // These laws hold on every system: tests/windows/run runs this file on Windows, too.
 using namespace counterflex;
@@ -125,6 +127,24 @@ TEST_CASE("a file that is being written is not swept, and its name disappears wi
   write_file(temporary_name(folder.file("out"), 1, 0), "left by a process that was killed");
   CHECK(sweep_abandoned({folder.file("out")}) == 1);
   CHECK(folder.count() == 0);
+}
+
+TEST_CASE("a file that another program has opened is replaced whole, or stays whole") {
+  const NamedFolder folder;
+  const std::string file = folder.file("out");
+  write_file(file, "old");
+  const std::ifstream opened(std::filesystem::path{file});
+  REQUIRE(opened.good());
+  std::string expected = "new";
+  try {
+    write_file(file, "new");
+  } catch (const InputError& refused) {  // Windows
+    CHECK(refused.kind() == ErrorKind::transient_io);
+    CHECK(std::string(refused.what()).find("another program has opened it") != std::string::npos);
+    expected = "old";
+  }
+  CHECK(read_file(file) == expected);
+  CHECK(folder.count() == 1);
 }
 
 TEST_CASE("the errors of missing files, of folders and of names in use are those of POSIX") {

@@ -41,6 +41,9 @@ bool is_being_written(const std::string& path);
 /// An empty file without a name, in the folder for temporary files.
 int make_nameless_file();
 
+/// An empty folder there, which only this user may enter.
+std::optional<std::string> make_temporary_folder();
+
 /// Reads up to `most` bytes from `offset` on; how many. The position of the descriptor may change.
 std::ptrdiff_t read_at(int descriptor, char* to, std::size_t most, std::size_t offset);
 
@@ -64,6 +67,16 @@ void remove_file(const char* path) noexcept;
 /// Locks a file that is open for other holders of its lock, without waiting. errno is EWOULDBLOCK where
 /// another process has it. It is free when the descriptor is closed, by the end of the process, too.
 bool lock(int descriptor, bool exclusive);
+
+/// Whether a name, without folders, matches `pattern`. Linux: glob(7), and a name that begins with a dot
+/// matches no pattern that begins otherwise. Windows: `*` and `?`; case makes no difference.
+bool matches(const std::string& pattern, const std::string& name);
+
+/// Between the names of files of one variable of the environment.
+extern const char list_separator;
+
+/// A number of errno in words.
+std::string reason_of(int error);
 
 /// Of this computer; "?" if it has none.
 std::string host_name();

@@ -1,7 +1,5 @@
 #include "batch/estimate.hpp"
 
-#include <unistd.h>
-
 #include <chrono>
 #include <cstdlib>
 #include <filesystem>
@@ -12,6 +10,7 @@
 
 #include "batch/job_process.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 #include "process/signals.hpp"
 
 namespace counterflex::cli {
@@ -28,10 +27,9 @@ constexpr double process_seconds = 0.005;  // overhead of a job
 class TemporaryFolder {
  public:
   TemporaryFolder() {
-    std::error_code ignored;
-    path_ = (fs::temp_directory_path(ignored) / "counterflex-XXXXXX").native();
-    if (::mkdtemp(path_.data()) == nullptr)
-      throw InputError(ErrorKind::transient_io, {path_}, "cannot make a temporary folder");
+    const auto made = system::make_temporary_folder();
+    if (!made) throw InputError(ErrorKind::transient_io, {}, "cannot make a temporary folder");
+    path_ = *made;
   }
   ~TemporaryFolder() {
     std::error_code ignored;
@@ -40,7 +38,7 @@ class TemporaryFolder {
   TemporaryFolder(const TemporaryFolder&) = delete;
   TemporaryFolder& operator=(const TemporaryFolder&) = delete;
 
-  std::string file(const std::string& name) const { return (fs::path(path_) / name).native(); }
+  const std::string& path() const { return path_; }
 
  private:
   std::string path_;
@@ -48,21 +46,19 @@ class TemporaryFolder {
 
 /// The time for `job`, extrapolated from the part done in a few seconds. A signal stops it and is
 /// returned in `stopped`.
-double tried_seconds(BatchJob job, const AwaitedSignals& signals, std::optional<int>& stopped) {
+double tried_seconds(const BatchJob& job, const AwaitedSignals& signals, std::optional<int>& stopped) {
   const TemporaryFolder folder;
-  job.options.output = folder.file("tried");
-  if (job.options.report) job.options.report = folder.file("report");
-  if (job.options.plot) job.options.plot = folder.file("plot.svg");
+  const JobOrder order{.key = job.key, .folder = folder.path()};
   Workers workers;
-  workers.start(0, [&](const SendLine& send) { do_job(job, 1, send); });
+  workers.start(0, order.text(), [&](const SendLine& send) { do_job(job, order, send); });
   const auto begun = Clock::now();
   double share = 0, elapsed = 0;
   for (bool ended = false; !ended && !stopped && elapsed < longest_try;) {
-    const auto events = workers.wait(signals.descriptor(), 100);
+    const auto events = workers.wait(&signals, 100);
     stopped = signals.take();
     elapsed = std::chrono::duration<double>(Clock::now() - begun).count();
     for (const WorkerEvent& event : events) {
-      ended = ended || event.ended;
+      ended = ended || event.end;
       if (const auto done = news_of(event.line).done) share = *done;
     }
     if (ended) share = 1;

@@ -16,7 +16,7 @@ namespace {
 namespace fs = std::filesystem;
 
 std::string state_folder(const std::string& folder) {
-  return (fs::path(folder) / ".counterflex").native();
+  return (fs::path(folder) / ".counterflex").generic_string();
 }
 
 /// All folders that results are written to. Each has one name, so that a run does not wait for its own lock.
@@ -27,7 +27,7 @@ std::set<std::string> make_folders_of(const Batch& batch) {
   std::set<std::string> canonical;
   for (const std::string& folder : folders) {
     make_folder(folder);
-    canonical.insert(fs::canonical(folder).native());
+    canonical.insert(fs::canonical(folder).generic_string());
   }
   return canonical;
 }
@@ -58,7 +58,7 @@ void BatchFolder::make_state(const std::string& name) const {
 }
 
 std::string BatchFolder::state(const std::string& name) const {
-  return (fs::path(state_folder(folder_)) / name).lexically_normal().native();
+  return (fs::path(state_folder(folder_)) / name).lexically_normal().generic_string();
 }
 
 std::vector<std::string> BatchFolder::manifests() const {

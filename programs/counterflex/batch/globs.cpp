@@ -1,7 +1,5 @@
 #include "batch/globs.hpp"
 
-#include <fnmatch.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <set>
@@ -9,6 +7,7 @@
 #include <utility>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -31,15 +30,15 @@ class Walk {
 
  private:
   void go(const fs::path& at, std::size_t part) {
-    if (!visited_.emplace(at.native(), part).second)
+    if (!visited_.emplace(at.generic_string(), part).second)
       return;  // already reached, if "**" occurs more than once
     if (part == parts_.size()) return take(at);
-    const std::string& name = parts_[part].native();
+    const std::string name = parts_[part].generic_string();
     if (!is_glob(name)) return go(at / parts_[part], part + 1);
     const bool any_depth = name == "**";
     if (any_depth) go(at, part + 1);
     for (const fs::path& entry : names_in(at)) {
-      if (::fnmatch(any_depth ? "*" : name.c_str(), entry.c_str(), FNM_PERIOD) != 0) continue;
+      if (!system::matches(any_depth ? "*" : name, entry.generic_string())) continue;
       std::error_code ignored;
       if (!any_depth)
         go(at / entry, part + 1);
@@ -60,14 +59,14 @@ class Walk {
     if (!error || error == std::errc::no_such_file_or_directory || error == std::errc::not_a_directory)
       return names;
     const bool for_good = error == std::errc::permission_denied;
-    throw InputError(for_good ? ErrorKind::machine_or_force : ErrorKind::transient_io, {place.native()},
-                     "cannot read the folder: " + error.message());
+    throw InputError(for_good ? ErrorKind::machine_or_force : ErrorKind::transient_io,
+                     {place.generic_string()}, "cannot read the folder: " + error.message());
   }
 
   /// Skips pipes and devices: reading them might block for ever.
   void take(const fs::path& path) {
     std::error_code ignored;
-    if (fs::is_regular_file(path, ignored)) found_.insert(path.native());
+    if (fs::is_regular_file(path, ignored)) found_.insert(path.generic_string());
   }
 
   std::vector<fs::path> parts_;

@@ -1,10 +1,10 @@
 #include "batch/job_process.hpp"
 
 #include <fmt/format.h>
-#include <sys/wait.h>
 
 #include <algorithm>
 #include <charconv>
+#include <filesystem>
 
 #include "counterflex/files/input_error.hpp"
 #include "process/exit_status.hpp"
@@ -42,13 +42,32 @@ double share_of(std::string_view text) {
   return std::min(1.0, static_cast<double>(count_of(text.substr(0, blank))) / all);
 }
 
+/// Of the job in another folder, with its reports if it has some.
+void write_into(const std::string& folder, Options& options) {
+  const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).generic_string(); };
+  options.output = file("program");
+  if (options.report) options.report = file("report");
+  if (options.plot) options.plot = file("plot.svg");
+}
+
 }  // namespace
 
-void do_job(const BatchJob& job, int threads, const SendLine& send) {
+// No path of Windows has a '|', and no key.
+std::string JobOrder::text() const {
+  return fmt::format("{}|{}|{}", threads, folder, key);
+}
+
+JobOrder order_of(const std::string& text) {
+  const std::size_t folder = text.find('|') + 1, key = text.find('|', folder) + 1;
+  return {text.substr(key), static_cast<int>(count_of(text)), text.substr(folder, key - 1 - folder)};
+}
+
+void do_job(const BatchJob& job, const JobOrder& order, const SendLine& send) {
   JobOutcome outcome = outcome_for(job);
   Options options = job.options;
+  if (!order.folder.empty()) write_into(order.folder, options);
   options.hash_outputs = true;
-  options.threads = std::min(threads, options.threads);
+  options.threads = std::min(order.threads, options.threads);
   Console console(
       {options.quiet, options.verbose},
       {.error =
@@ -84,15 +103,11 @@ JobOutcome outcome_for(const BatchJob& job) {
   return outcome;
 }
 
-JobOutcome lost_outcome(const BatchJob& job, int status) {
+JobOutcome lost_outcome(const BatchJob& job, const WorkerEnd& end) {
   JobOutcome outcome = outcome_for(job);
-  const int signal = WIFSIGNALED(status) ? WTERMSIG(status) : 0;
-  const bool broke_down = signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE ||
-                          signal == SIGILL || (signal == 0 && WEXITSTATUS(status) < 128);
-  outcome.error_kind = broke_down ? ErrorKind::internal : ErrorKind::transient_io;
-  outcome.error = fmt::format("{}: error: {}the process of this job {}{}", job.program,
-                              broke_down ? "internal error: " : "", ending_text(status),
-                              signal == SIGKILL ? ", perhaps because memory was short" : "");
+  outcome.error_kind = end.crashed ? ErrorKind::internal : ErrorKind::transient_io;
+  outcome.error = fmt::format("{}: error: {}the process of this job {}", job.program,
+                              end.crashed ? "internal error: " : "", end.text);
   return outcome;
 }
 

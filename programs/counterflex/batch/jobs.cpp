@@ -1,7 +1,6 @@
 #include "batch/jobs.hpp"
 
 #include <fmt/format.h>
-#include <unistd.h>
 
 #include <algorithm>
 #include <filesystem>
@@ -13,6 +12,7 @@
 #include "counterflex/settings/environment.hpp"
 #include "counterflex/settings/jobs_file.hpp"
 #include "counterflex/settings/project_file.hpp"
+#include "process/terminal.hpp"
 #include "process/version.hpp"
 #include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
@@ -35,12 +35,12 @@ std::vector<std::string> files_read(const Options& options) {
 
 /// Settings of the environment. Their paths are relative to the working directory.
 std::vector<Setting> environment_of(const std::string& from) {
-  std::vector<Setting> settings = read_environment(environ);
+  std::vector<Setting> settings = read_environment(environment_variables());
   for (Setting& setting : settings)
     if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table" ||
         setting.option == "data")
       for (std::string& path : setting.values)
-        if (path != "-") path = (fs::path(from) / path).lexically_normal().native();
+        if (path != "-") path = (fs::path(from) / path).lexically_normal().generic_string();
   return settings;
 }
 

@@ -24,7 +24,7 @@ namespace fs = std::filesystem;
 std::set<int> counts_of_shards(const BatchFolder& folder) {
   std::set<int> counts;
   for (const std::string& file : files_matching(folder.state("shards/*-of-*.json"))) {
-    const std::string name = fs::path(file).stem().native();
+    const std::string name = fs::path(file).stem().generic_string();
     const std::size_t of = name.find("-of-");
     try {
       counts.insert(read_shard(name.substr(0, of) + "/" + name.substr(of + 4)).count);

@@ -55,7 +55,7 @@ class JobsRun {
   std::optional<int> run() {
     while (next_ < missing_.size() || workers_.running() > 0) {
       start_some();
-      for (const WorkerEvent& event : workers_.wait(signals_.descriptor(), tick_ms)) {
+      for (const WorkerEvent& event : workers_.wait(&signals_, tick_ms)) {
         take(event);
         if (stopped_) break;
       }
@@ -94,7 +94,8 @@ class JobsRun {
   /// Returns false if the system has no free process but one of ours will end.
   bool start(std::size_t task, int threads) {
     try {
-      workers_.start(task, [&](const SendLine& send) { do_job(job(task), threads, send); });
+      const JobOrder order{job(task).key, threads};
+      workers_.start(task, order.text(), [&](const SendLine& send) { do_job(job(task), order, send); });
       return true;
     } catch (const InputError&) {
       if (workers_.running() == 0) throw;
@@ -103,7 +104,7 @@ class JobsRun {
   }
 
   void take(const WorkerEvent& event) {
-    if (event.ended) return end(event);
+    if (event.end) return end(event);
     JobNews news = news_of(event.line);
     progress_.add(event.task, news.done, news.waypoints);
     if (news.outcome) outcomes_[event.task] = std::move(news.outcome);
@@ -113,7 +114,7 @@ class JobsRun {
   void end(const WorkerEvent& event) {
     std::optional<JobOutcome>& outcome = outcomes_[event.task];
     if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;
-    if (!outcome) outcome = lost_outcome(job(event.task), event.status);
+    if (!outcome) outcome = lost_outcome(job(event.task), *event.end);
     if (workers_.running() == 0) alone_ = false;
     progress_.end(event.task, !outcome->error_kind);
     if (outcome->error_kind) console_.error(outcome->error);

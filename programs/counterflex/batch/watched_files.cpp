@@ -1,8 +1,5 @@
 #include "batch/watched_files.hpp"
 
-#include <fnmatch.h>
-#include <sys/stat.h>
-
 #include <algorithm>
 #include <cctype>
 #include <filesystem>
@@ -10,6 +7,7 @@
 #include <utility>
 
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/system.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -32,22 +30,15 @@ bool is_hidden_or_temporary(const std::string& name) {
 bool may_be_program(const std::string& name, const std::vector<std::string>& patterns) {
   if (is_hidden_or_temporary(name)) return false;
   if (patterns.empty()) return !ends_with_any(name, {".toml", ".csv", ".json", ".html", ".svg"});
-  return std::ranges::any_of(patterns, [&](const std::string& pattern) {
-    return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
-  });
-}
-
-std::int64_t nanoseconds_of(const timespec& time) {
-  constexpr std::int64_t per_second = 1'000'000'000;
-  return std::int64_t{time.tv_sec} * per_second + time.tv_nsec;
+  return std::ranges::any_of(patterns,
+                             [&](const std::string& pattern) { return system::matches(pattern, name); });
 }
 
 /// Empty if there is no file, or an empty one.
 std::optional<FileVersion> version_of(const std::string& path) {
-  struct stat facts {};
-  if (::stat(path.c_str(), &facts) != 0 || !S_ISREG(facts.st_mode) || facts.st_size == 0) return std::nullopt;
-  return FileVersion{facts.st_dev, facts.st_ino, static_cast<std::uint64_t>(facts.st_size),
-                     nanoseconds_of(facts.st_mtim), nanoseconds_of(facts.st_ctim)};
+  const auto facts = system::facts_of(path);
+  if (!facts || facts->kind != system::FileKind::file || facts->size == 0) return std::nullopt;
+  return FileVersion{facts->device, facts->inode, facts->size, facts->written_ns, facts->changed_ns};
 }
 
 }  // namespace
@@ -64,8 +55,8 @@ void WatchedFiles::poll() {
   std::map<std::string, File> files;
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
-    const std::string path = entry->path().string();
-    if (!may_be_program(entry->path().filename().string(), patterns_)) continue;
+    const std::string path = entry->path().generic_string();
+    if (!may_be_program(entry->path().filename().generic_string(), patterns_)) continue;
     const auto found = version_of(path);
     if (!found) continue;
     File& file = files[path] = {.version = *found, .is_from_start = is_first_poll_};

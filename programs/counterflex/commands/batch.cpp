@@ -7,6 +7,7 @@
 
 #include "batch/estimate.hpp"
 #include "batch/folder.hpp"
+#include "batch/job_process.hpp"
 #include "batch/jobs.hpp"
 #include "batch/manifest.hpp"
 #include "batch/merge.hpp"
@@ -44,8 +45,8 @@ std::string enter_folder_of(const std::string& file, Console& console) {
   fs::current_path(path.parent_path(), error);
   if (error)
     throw InputError(ErrorKind::machine_or_force, {file}, "cannot read the file: " + error.message());
-  console.detail(fmt::format("in {}/", path.parent_path().native()));
-  return path.filename().native();
+  console.detail(fmt::format("in {}/", path.parent_path().generic_string()));
+  return path.filename().generic_string();
 }
 
 void check_flags(const Options& options) {
@@ -170,15 +171,24 @@ ExitStatus run_all(const Options& options, const Batch& batch, Console& console)
   return error;
 }
 
+/// In a worker.
+void do_one(const Batch& batch, const JobOrder& order, const SendLine& send) {
+  const auto job = std::ranges::find(batch.jobs, order.key, &BatchJob::key);
+  if (job != batch.jobs.end()) do_job(*job, order, send);
+}
+
 }  // namespace
 
 ExitStatus run_batch(const Options& options, Console& console) {
   check_flags(options);
   std::error_code gone;
-  const std::string from = fs::current_path(gone).native();
+  const std::string from = fs::current_path(gone).generic_string();
   Batch batch = read_batch(enter_folder_of(options.batch.jobs, console), from, options.sources.flags);
   for (BatchJob& job : batch.jobs)
     job.options.quiet = !options.verbose;  // the table shows the number of warnings
+  if (do_ordered(
+          [&](const std::string& order, const SendLine& send) { do_one(batch, order_of(order), send); }))
+    return ExitStatus(std::nullopt);
   if (options.batch.estimate) return say_estimate(batch);
   refuse_foreign_summary(batch);
   if (options.batch.shard) return run_shard(options, batch, console);

@@ -216,7 +216,7 @@ std::string_view without_fit_mark(std::string_view text) {
 }
 
 std::string fitted_text(const FitInput& input, const SpindleFit& fit, const std::string& file) {
-  const std::string log = without_controls(std::filesystem::path(input.log.file).filename().string());
+  const std::string log = without_controls(std::filesystem::path(input.log.file).filename().generic_string());
   std::vector<FittedMaterial> fitted;
   for (std::size_t g = 0; g < input.groups.size(); ++g) {
     if (fit.scales[g].samples == 0) continue;

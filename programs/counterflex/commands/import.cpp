@@ -25,7 +25,7 @@ std::vector<ConfigurationFile> read_configuration(const std::string& path) {
   if (!path.ends_with(".ini")) return files;
   const std::filesystem::path folder = std::filesystem::path(path).parent_path();
   for (const std::string& hal : hal_files_of(files[0])) {
-    const std::string name = (folder / hal).string();
+    const std::string name = (folder / hal).generic_string();
     files.push_back({name, text_of(name)});
   }
   return files;

@@ -60,8 +60,8 @@ BatchJob job_for(const Options& watch, const std::string& program) {
 
 /// Throws if outputs of different programs are one file, or replace the program.
 void refuse_shared_outputs(const Options& watch) {
-  const BatchJob one = job_for(watch, (fs::path(watch.watch.folder) / "one.nc").string());
-  const BatchJob other = job_for(watch, (fs::path(watch.watch.folder) / "other.nc").string());
+  const BatchJob one = job_for(watch, (fs::path(watch.watch.folder) / "one.nc").generic_string());
+  const BatchJob other = job_for(watch, (fs::path(watch.watch.folder) / "other.nc").generic_string());
   if (one.output == other.output) refuse_shared("--output", one.output);
   if (one.options.report && one.options.report == other.options.report)
     refuse_shared("--report", *one.options.report);
@@ -118,12 +118,13 @@ std::string text_line(const JobOutcome& outcome) {
 JobOutcome outcome_of_process(const BatchJob& job) {
   const AwaitedSignals signals;
   Workers workers;
-  workers.start(0, [&](const SendLine& send) { do_job(job, job.options.threads, send); });
+  const JobOrder order{job.program, job.options.threads};
+  workers.start(0, order.text(), [&](const SendLine& send) { do_job(job, order, send); });
   std::optional<JobOutcome> outcome;
   while (workers.running() > 0) {
-    for (const WorkerEvent& event : workers.wait(signals.descriptor(), -1)) {
+    for (const WorkerEvent& event : workers.wait(&signals, -1)) {
       if (auto sent = news_of(event.line).outcome) outcome = std::move(sent);
-      if (event.ended && !outcome) outcome = lost_outcome(job, event.status);
+      if (event.end && !outcome) outcome = lost_outcome(job, *event.end);
     }
     const bool is_lost = workers.running() == 0 && outcome->error_kind.has_value();
     const auto signal = signals.take(is_lost ? hesitation_ms : 0);
@@ -255,6 +256,11 @@ class Watch {
 }  // namespace
 
 std::optional<ErrorKind> run_watch(const Options& options, Console& console) {
+  const auto do_one = [&](const std::string& text, const SendLine& send) {
+    const JobOrder order = order_of(text);
+    do_job(job_for(options, order.key), order, send);
+  };
+  if (do_ordered(do_one)) return std::nullopt;
   check_watch(options);
   Watch watch(options, console);
   if (!options.watch.once) console.detail(fmt::format("watching {}", options.watch.folder));

@@ -27,6 +27,7 @@ bool colours_on(int descriptor) {
 /// Ignores errors: there is no other place to report them.
 void write_error(const std::string& text) {
   std::fputs(text.c_str(), stderr);
+  std::fflush(stderr);  // Windows keeps it, and standard output would come first
 }
 
 /// Colours the first ": word: " of a diagnostic, or `word` at its beginning.

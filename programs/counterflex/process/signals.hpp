@@ -26,7 +26,7 @@ class AwaitedSignals {
   AwaitedSignals(const AwaitedSignals&) = delete;
   AwaitedSignals& operator=(const AwaitedSignals&) = delete;
 
-  int descriptor() const { return descriptor_; }  ///< readable when a signal has arrived
+  int descriptor() const { return descriptor_; }  ///< Linux: readable when a signal has arrived
 
   /// The signal that arrived within the time, if any.
   std::optional<int> take(int timeout_ms = 0) const;

@@ -1,40 +1,33 @@
 #include "process/spooled_text.hpp"
 
-#include <fmt/format.h>
-
-#include <cerrno>
-#include <cstring>
-
-#include "counterflex/files/input_error.hpp"
+#include <algorithm>
 
 namespace counterflex::cli {
 namespace {
 
-[[noreturn]] void fail(const char* what) {
-  throw InputError(ErrorKind::transient_io, {},
-                   fmt::format("cannot {} a temporary file: {}", what, std::strerror(errno)));
-}
+constexpr std::size_t portion = 1 << 16;  // bytes, of one call of the system
 
 }  // namespace
 
-SpooledText::SpooledText() : file_(std::tmpfile()) {
-  if (!file_) fail("make");
+void SpooledText::write(std::string_view bytes) {
+  unwritten_ += bytes;
+  if (unwritten_.size() >= portion) flush();
 }
 
-void SpooledText::write(std::string_view bytes) {
-  if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) fail("write");
+void SpooledText::flush() {
+  file_.append(unwritten_);
+  written_ += unwritten_.size();
+  unwritten_.clear();
 }
 
 void SpooledText::read(const std::function<void(std::string)>& lines) {
-  constexpr std::size_t at_once = 1 << 16;
-  if (std::fflush(file_.get()) != 0 || std::fseek(file_.get(), 0, SEEK_SET) != 0) fail("read");
+  flush();
   std::string text;
-  for (;;) {
-    const std::size_t begin = text.size();
-    text.resize(begin + at_once);
-    text.resize(begin + std::fread(text.data() + begin, 1, at_once, file_.get()));
-    if (std::ferror(file_.get()) != 0) fail("read");
-    if (text.size() == begin) break;
+  for (std::size_t at = 0; at < written_;) {
+    const std::size_t begin = text.size(), count = std::min(portion, written_ - at);
+    text.resize(begin + count);
+    file_.read(at, text.data() + begin, count);
+    at += count;
     const std::size_t whole = text.rfind('\n') + 1;  // 0 without a newline
     std::string behind = text.substr(whole);
     text.resize(whole);

@@ -7,10 +7,10 @@
 namespace counterflex::cli {
 
 /// Called first: standard streams pass bytes unchanged, and a terminal that can show UTF-8 does. Returns the
-/// arguments; on Windows these are UTF-8.
+/// arguments; on Windows these are UTF-8, and / separates the names of a path.
 std::vector<const char*> begin_process(int argc, char** argv);
 
-/// "NAME=VALUE" each; nullptr ends it. On Windows these are UTF-8.
+/// "NAME=VALUE" each; nullptr ends it. On Windows these are as the arguments.
 const char* const* environment_variables();
 
 bool is_terminal(int descriptor);

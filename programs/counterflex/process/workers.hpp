@@ -1,24 +1,32 @@
 #pragma once
-/// Runs tasks in separate processes: a crash affects only its own task.
-#include <sys/types.h>
-
+/// Runs tasks in separate processes: a crash affects only its own task. Each system has its implementation:
+/// Linux forks, Windows starts the program again.
 #include <cstddef>
 #include <functional>
+#include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
+
+#include "process/signals.hpp"
 
 namespace counterflex::cli {
 
 /// Sends one line, without its end, from a worker to its parent.
 using SendLine = std::function<void(std::string_view line)>;
 
+/// How a process ended.
+struct WorkerEnd {
+  std::string text{};    ///< "ended with status 3", "was killed by signal 9"
+  bool crashed = false;  ///< by an error of its own: another run would crash, too
+};
+
 /// A line of a worker, or its end.
 struct WorkerEvent {
   std::size_t task = 0;
   std::string line{};
-  bool ended = false;
-  int status = 0;  ///< of `waitpid`, for a worker that ended
+  std::optional<WorkerEnd> end{};
 };
 
 /// The workers of a process without other threads. They are killed when it ends for any reason, so that they
@@ -31,33 +39,27 @@ class Workers {
   Workers(const Workers&) = delete;
   Workers& operator=(const Workers&) = delete;
 
-  /// Forks a process for `work`, which ends when `work` returns, without destroying the parent's objects.
-  /// Signals have their original handlers there. If `work` throws, the process ends with status 1.
-  void start(std::size_t task, const std::function<void(const SendLine&)>& work);
+  /// Linux: forks a process for `work`, which ends when `work` returns, without destroying the parent's
+  /// objects. Signals have their original handlers there. If `work` throws, the process ends with status 1.
+  /// Windows: starts the command line of this process again, in the folder in which this one was started. The
+  /// new process calls `do_ordered`, which gets `order`.
+  void start(std::size_t task, const std::string& order, const std::function<void(const SendLine&)>& work);
 
-  std::size_t running() const { return workers_.size(); }
+  std::size_t running() const;
 
-  /// Waits for a line or the end of a worker, for `other` (a descriptor, or -1) to become readable, or for
-  /// the timeout. Returns the events since the last call, in order for each worker.
-  std::vector<WorkerEvent> wait(int other, int timeout_ms);
+  /// Waits for a line or the end of a worker, for a signal, or for the timeout (-1: without limit). Returns
+  /// the events since the last call, in order for each worker.
+  std::vector<WorkerEvent> wait(const AwaitedSignals* signals, int timeout_ms);
 
-  /// Sends SIGTERM to all, and kills those that have not ended after `patience_ms`.
+  /// Asks all to end, and kills those that have not ended after `patience_ms`.
   void end_all(int patience_ms);
 
  private:
-  struct Worker {
-    pid_t process;
-    int pipe;
-    std::size_t task;
-    std::string unread{};  ///< the beginning of a line
-  };
-
-  bool read_from(Worker& worker, std::vector<WorkerEvent>& events);
-
-  std::vector<Worker> workers_;
+  struct State;
+  std::unique_ptr<State> state_;
 };
 
-/// A status of `waitpid` in words: "ended with status 3", "was killed by signal 9".
-std::string ending_text(int status);
+/// In a process that `Workers` have started with an order: does it, and returns true. Linux: returns false.
+bool do_ordered(const std::function<void(const std::string& order, const SendLine&)>& work);
 
 }  // namespace counterflex::cli

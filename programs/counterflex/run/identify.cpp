@@ -78,7 +78,8 @@ IdentifyOptions identify_options(const Options& options) {
 std::string names_of(const std::vector<std::string>& files) {
   std::string text;
   for (const std::string& file : files)
-    text += (text.empty() ? "" : ", ") + without_controls(std::filesystem::path(file).filename().string());
+    text += (text.empty() ? "" : ", ") +
+            without_controls(std::filesystem::path(file).filename().generic_string());
   return text;
 }
 

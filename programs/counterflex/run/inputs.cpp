@@ -58,7 +58,8 @@ std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine
 
 /// By extension; standard input is CSV.
 bool is_cutting_model(const std::string& path) {
-  const std::string extension = path == "-" ? ".csv" : std::filesystem::path(path).extension().string();
+  const std::string extension =
+      path == "-" ? ".csv" : std::filesystem::path(path).extension().generic_string();
   if (extension == ".csv" || extension == ".toml") return extension == ".toml";
   throw InputError(ErrorKind::usage, {path},
                    fmt::format("a force file is .csv or .toml, not '{}'", extension));

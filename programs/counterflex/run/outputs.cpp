@@ -44,7 +44,7 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
     throw InputError(ErrorKind::usage, {},
                      fmt::format("cannot write to '{}': it is not the name of a file", path));
   const fs::path folder = fs::path(path).parent_path();
-  const bool is_made = std::find(made.begin(), made.end(), folder.string()) != made.end();
+  const bool is_made = std::find(made.begin(), made.end(), folder.generic_string()) != made.end();
   if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
     throw InputError(ErrorKind::usage, {path}, "cannot write the file: its folder does not exist; create it");
 }
@@ -116,13 +116,13 @@ std::string corrected_list(const std::string& list, const std::string& program,
                            const std::string& corrected) {
   const fs::path path(list), output(corrected);
   if (is_same_file(list, data_list_beside(program)))
-    return fs::path(output).replace_extension(path.extension()).string();
+    return fs::path(output).replace_extension(path.extension()).generic_string();
   const fs::path same_name = output.parent_path() / path.filename();
-  return is_same_file(same_name.string(), list) ? default_output(list) : same_name.string();
+  return is_same_file(same_name.generic_string(), list) ? default_output(list) : same_name.generic_string();
 }
 
 bool belongs_to_control(const std::string& list) {
-  return fs::path(list).filename().string().starts_with('$');
+  return fs::path(list).filename().generic_string().starts_with('$');
 }
 
 std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<ProgramPart>& parts,
@@ -135,7 +135,8 @@ std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<
   const fs::path main(paths.program);
   std::vector<std::string> files{paths.program};
   for (std::size_t i = 1; i < parts.size(); ++i)
-    files.push_back((main.parent_path() / parts[i].name).string() + main.extension().string());
+    files.push_back((main.parent_path() / parts[i].name).generic_string() +
+                    main.extension().generic_string());
   check_paths(files, inputs_of(options), options.folders);
   if (!options.force_overwrite)
     for (const std::string& file : files) refuse_foreign({{file, has_corrected_header}});
@@ -146,7 +147,7 @@ std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<
 std::string canonical_name(const std::string& path) {
   std::error_code ignored;
   const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  return canonical.empty() ? path : canonical.native();
+  return canonical.empty() ? path : canonical.generic_string();
 }
 
 namespace {
@@ -249,7 +250,7 @@ void check_output(const Options& options, std::string_view mark) {
         ErrorKind::usage, {},
         "the table and the document of --json cannot both go to standard output; give -o a file");
   check_paths({*options.output}, inputs_of(options));
-  const std::string extension = fs::path(*options.output).extension().string();
+  const std::string extension = fs::path(*options.output).extension().generic_string();
   if (*options.output != "-" && extension != ".csv")
     throw InputError(ErrorKind::usage, {*options.output},
                      fmt::format("a table is written to a .csv file, not to '{}'", extension));

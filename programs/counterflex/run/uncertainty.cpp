@@ -8,6 +8,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "counterflex/report/identification.hpp"
+#include "process/console.hpp"
 #include "process/read_input.hpp"
 
 namespace counterflex::cli {
@@ -30,7 +31,8 @@ std::vector<InputFile> read_uncertainty_files(const Options& options, Machine& m
                      "temperature_K out");
   if (uncertainty.covariance.empty()) return files;
   const std::string& from = options.uncertainty ? *options.uncertainty : options.machine;
-  const std::string path = (std::filesystem::path(from).parent_path() / uncertainty.covariance).string();
+  const std::string path =
+      (std::filesystem::path(from).parent_path() / uncertainty.covariance).generic_string();
   std::error_code none;
   if (!std::filesystem::exists(path, none))
     throw InputError(

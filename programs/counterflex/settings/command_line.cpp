@@ -158,7 +158,7 @@ std::optional<ErrorKind> leave(const CLI::App& app, const CLI::ParseError& error
 /// several files.
 std::string placing_program(const Options& options) {
   if (options.command == Command::watch)
-    return (std::filesystem::path(options.watch.folder) / "any").string();
+    return (std::filesystem::path(options.watch.folder) / "any").generic_string();
   if (options.command != Command::check) return options.program;
   const auto program = std::find_if(options.check.files.begin(), options.check.files.end(),
                                     [](const std::string& file) { return !file.ends_with(".toml"); });
@@ -190,6 +190,7 @@ std::vector<SettingRemark> remarks_on_environment() {
 std::variant<Options, std::optional<ErrorKind>> read_command_line(int argc, const char* const* argv) {
   Options options;
   CLI::App app("", "counterflex");
+  app.allow_windows_style_options(false);  // "/cam/part.nc" is a path
   describe_program(app);
   add_commands(app, options);
   try {

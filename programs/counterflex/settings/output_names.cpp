@@ -14,11 +14,11 @@ namespace {
 NameParts known_parts(const std::string& program) {
   if (program == "-" || program.empty()) return {};
   const std::filesystem::path path(program);
-  return {path.stem().string(), path.extension().string(), std::nullopt};
+  return {path.stem().generic_string(), path.extension().generic_string(), std::nullopt};
 }
 
 std::string without_extension(const std::string& path) {
-  return std::filesystem::path(path).replace_extension().string();
+  return std::filesystem::path(path).replace_extension().generic_string();
 }
 
 /// The path for `text`, beside the program if it has no folder. Empty if a part is unknown.
@@ -27,7 +27,7 @@ std::optional<std::string> filled_path(const std::string& text, const std::strin
   if (!unknown_placeholder(text, parts).empty()) return std::nullopt;
   const std::string path = fill(text, parts);
   if (!is_pattern(text) || text.find('/') != std::string::npos || text.starts_with("{output}")) return path;
-  return (std::filesystem::path(program).parent_path() / path).string();
+  return (std::filesystem::path(program).parent_path() / path).generic_string();
 }
 
 struct Naming {
@@ -69,7 +69,7 @@ std::optional<std::string> named(const std::optional<std::string>& given, std::s
   if (!is_pattern(pattern)) return fill(pattern, {});
   const auto path = filled_path(pattern, naming.options.program, naming.parts);
   if (path) {
-    naming.options.folders.push_back(std::filesystem::path(*path).parent_path().string());
+    naming.options.folders.push_back(std::filesystem::path(*path).parent_path().generic_string());
     return path;
   }
   if (setting.origin == Origin::flag) refuse_nameless(setting, *given);
@@ -137,7 +137,8 @@ void remark_on_name(const Setting& setting, Options& options) {
 std::string default_output(const std::string& program) {
   if (program == "-") return "-";
   const std::filesystem::path path(program);
-  return (path.parent_path() / (path.stem().string() + ".comp" + path.extension().string())).string();
+  return (path.parent_path() / (path.stem().generic_string() + ".comp" + path.extension().generic_string()))
+      .generic_string();
 }
 
 }  // namespace counterflex::cli

@@ -1,6 +1,7 @@
 #include "counterflex/files/system.hpp"
 
 #include <fcntl.h>
+#include <fnmatch.h>
 #include <sys/file.h>
 #include <sys/stat.h>
 #include <unistd.h>
@@ -8,12 +9,19 @@
 #include <array>
 #include <cerrno>
 #include <cstdlib>
+#include <cstring>
 #include <filesystem>
 
 #include "files/descriptor.hpp"
 
 namespace counterflex::system {
 namespace {
+
+/// For `mkostemp` and `mkdtemp`, which replace the last letters.
+std::string temporary_pattern() {
+  std::error_code ignored;
+  return (std::filesystem::temp_directory_path(ignored) / "counterflex-XXXXXX").string();
+}
 
 std::int64_t nanoseconds_of(const timespec& time) {
   constexpr std::int64_t per_second = 1'000'000'000;
@@ -76,11 +84,16 @@ bool is_being_written(const std::string& path) {
 }
 
 int make_nameless_file() {
-  std::error_code ignored;
-  std::string name = (std::filesystem::temp_directory_path(ignored) / "counterflex-XXXXXX").string();
+  std::string name = temporary_pattern();
   const int fd = ::mkostemp(name.data(), O_CLOEXEC);
   if (fd >= 0) ::unlink(name.c_str());
   return fd;
+}
+
+std::optional<std::string> make_temporary_folder() {
+  std::string name = temporary_pattern();
+  if (::mkdtemp(name.data()) == nullptr) return std::nullopt;
+  return name;
 }
 
 std::ptrdiff_t read_at(int descriptor, char* to, std::size_t most, std::size_t offset) {
@@ -126,6 +139,16 @@ void remove_file(const char* path) noexcept {
 
 bool lock(int descriptor, bool exclusive) {
   return ::flock(descriptor, (exclusive ? LOCK_EX : LOCK_SH) | LOCK_NB) == 0;
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return ::fnmatch(pattern.c_str(), name.c_str(), FNM_PERIOD) == 0;
+}
+
+const char list_separator = ':';
+
+std::string reason_of(int error) {
+  return std::strerror(error);
 }
 
 std::string host_name() {

@@ -2,12 +2,14 @@
 
 #include <fcntl.h>
 #include <io.h>
+#include <shlwapi.h>
 #include <unistd.h>
 #include <windows.h>
 
 #include <array>
 #include <atomic>
 #include <cerrno>
+#include <cstring>
 #include <cwchar>
 #include <filesystem>
 #include <utility>
@@ -146,6 +148,25 @@ std::optional<FileFacts> facts(HANDLE file) {
   return facts;
 }
 
+/// The result of `make`, which is called with unused names of temporary files until one is not taken by
+/// another process.
+template <typename Make>
+HANDLE with_temporary_name(const Make& make) {
+  static std::atomic<unsigned> counter{0};
+  std::array<wchar_t, MAX_PATH + 1> folder{};
+  if (::GetTempPathW(static_cast<DWORD>(folder.size()), folder.data()) == 0) {
+    take_error();
+    return INVALID_HANDLE_VALUE;
+  }
+  for (;;) {
+    const HANDLE made = make(std::wstring(folder.data()) + L"counterflex-" + std::to_wstring(::_getpid()) +
+                             L"-" + std::to_wstring(counter++) + L".tmp");
+    if (made != INVALID_HANDLE_VALUE) return made;
+    take_error();
+    if (errno != EEXIST) return made;
+  }
+}
+
 OVERLAPPED at(std::uint64_t offset) {
   OVERLAPPED place{};
   place.Offset = static_cast<DWORD>(offset);
@@ -157,7 +178,8 @@ OVERLAPPED at(std::uint64_t offset) {
 
 std::optional<FileFacts> facts_of(int descriptor) {
   const HANDLE file = handle_of(descriptor);
-  if (file != INVALID_HANDLE_VALUE) return facts(file);
+  // Wine knows no facts of a file that Linux has opened. As a stream it can be read.
+  if (file != INVALID_HANDLE_VALUE) return facts(file).value_or(FileFacts{.kind = FileKind::stream});
   errno = EBADF;
   return std::nullopt;
 }
@@ -198,22 +220,22 @@ bool is_being_written(const std::string& path) {
 }
 
 int make_nameless_file() {
-  static std::atomic<unsigned> counter{0};
-  std::array<wchar_t, MAX_PATH + 1> folder{};
-  if (::GetTempPathW(static_cast<DWORD>(folder.size()), folder.data()) == 0) {
-    take_error();
-    return -1;
-  }
-  for (;;) {
-    const std::wstring name = std::wstring(folder.data()) + L"counterflex-" + std::to_wstring(::_getpid()) +
-                              L"-" + std::to_wstring(counter++) + L".tmp";
-    const HANDLE file =
-        ::CreateFileW(name.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, CREATE_NEW,
-                      FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
-    if (file != INVALID_HANDLE_VALUE) return descriptor_of(file, _O_RDWR);
-    take_error();
-    if (errno != EEXIST) return -1;
-  }
+  const HANDLE file = with_temporary_name([](const std::wstring& name) {
+    return ::CreateFileW(name.c_str(), GENERIC_READ | GENERIC_WRITE, FILE_SHARE_DELETE, nullptr, CREATE_NEW,
+                         FILE_ATTRIBUTE_TEMPORARY | FILE_FLAG_DELETE_ON_CLOSE, nullptr);
+  });
+  return descriptor_of(file, _O_RDWR);
+}
+
+/// The folder for temporary files is the user's own.
+std::optional<std::string> make_temporary_folder() {
+  std::optional<std::string> made;
+  with_temporary_name([&](const std::wstring& name) {
+    if (::CreateDirectoryW(name.c_str(), nullptr) == 0) return INVALID_HANDLE_VALUE;
+    made = std::filesystem::path(name).string();
+    return HANDLE{};
+  });
+  return made;
 }
 
 std::ptrdiff_t read_at(int descriptor, char* to, std::size_t most, std::size_t offset) {
@@ -261,6 +283,9 @@ bool rename_file(const std::string& from, const std::string& to) {
                     MOVEFILE_REPLACE_EXISTING | MOVEFILE_WRITE_THROUGH) != 0)
     return true;
   take_error();
+  const DWORD facts = ::GetFileAttributesW(wide(to).c_str());
+  constexpr DWORD forbidding = FILE_ATTRIBUTE_READONLY | FILE_ATTRIBUTE_DIRECTORY;
+  if (errno == EACCES && facts != INVALID_FILE_ATTRIBUTES && (facts & forbidding) == 0) errno = EBUSY;
   return false;
 }
 
@@ -277,6 +302,17 @@ bool lock(int descriptor, bool exclusive) {
   if (::LockFileEx(handle_of(descriptor), flags, 0, 1, 0, &place) != 0) return true;
   take_error();
   return false;
+}
+
+bool matches(const std::string& pattern, const std::string& name) {
+  return ::PathMatchSpecExW(wide(name).c_str(), wide(pattern).c_str(),
+                            PMSF_NORMAL | PMSF_DONT_STRIP_SPACES) == S_OK;
+}
+
+const char list_separator = ';';
+
+std::string reason_of(int error) {
+  return error == EBUSY ? "another program has opened it" : std::strerror(error);
 }
 
 std::string host_name() {

@@ -160,7 +160,7 @@ class SheetReader {
     if (order_.empty())
       csv::fail({file_, 0, 0}, "no row has a measured value; write them into the column measured_mm");
     all_.sessions.push_back(
-        {std::filesystem::path(file_).stem().string(), MeasurementKind::cmm_feature, true, Pose{}});
+        {std::filesystem::path(file_).stem().generic_string(), MeasurementKind::cmm_feature, true, Pose{}});
     for (const std::string& name : order_) {
       Measurement& row = *rows_.at(name);
       if (row.states.empty())

@@ -120,10 +120,10 @@ Description read_description(std::string_view text, const std::string& file, con
   description.file = file;
   const std::string csv =
       as_text(required(document, "file", "the description", document, source), "file", source);
-  description.csv = (std::filesystem::path(file).parent_path() / csv).string();
+  description.csv = (std::filesystem::path(file).parent_path() / csv).generic_string();
   if (const toml::node* states = document.get("states"))
     description.states =
-        (std::filesystem::path(file).parent_path() / as_text(*states, "states", source)).string();
+        (std::filesystem::path(file).parent_path() / as_text(*states, "states", source)).generic_string();
   description.kind = kind_of(document, source);
   read_layout(document, source, description);
   if (const toml::node* session = document.get("session"))

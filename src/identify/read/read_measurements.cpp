@@ -85,7 +85,8 @@ class RowReader {
   std::string session_name() const {
     const csv::Field* field = table_->text("session");
     if (field != nullptr && !field->text.empty()) return without_controls(field->text);
-    return description_.session.empty() ? std::filesystem::path(file_).stem().string() : description_.session;
+    return description_.session.empty() ? std::filesystem::path(file_).stem().generic_string()
+                                        : description_.session;
   }
 
   /// `part` distinguishes rows of one session whose unknowns differ.

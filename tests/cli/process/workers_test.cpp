@@ -13,33 +13,34 @@ using namespace counterflex::cli;
 
 namespace {
 
-/// How the worker of `task` ended, as `waitpid` gives it.
-int ending_of(Workers& workers, std::size_t task) {
+WorkerEnd ending_of(Workers& workers, std::size_t task) {
   while (workers.running() > 0)
-    for (const WorkerEvent& event : workers.wait(-1, -1))
-      if (event.ended && event.task == task) return event.status;
+    for (const WorkerEvent& event : workers.wait(nullptr, -1))
+      if (event.end && event.task == task) return *event.end;
   FAIL("the worker is not there");
-  return 0;
+  return {};
 }
 
 }  // namespace
 
 TEST_CASE("a worker that throws ends alone, with status 1") {
   Workers workers;
-  workers.start(0, [](const SendLine&) { ::pause(); });
-  workers.start(1, [](const SendLine&) { throw std::runtime_error("nobody catches this"); });
-  const int status = ending_of(workers, 1);
-  CHECK(WIFEXITED(status));
-  CHECK(WEXITSTATUS(status) == 1);
+  workers.start(0, "", [](const SendLine&) { ::pause(); });
+  workers.start(1, "", [](const SendLine&) { throw std::runtime_error("nobody catches this"); });
+  const WorkerEnd end = ending_of(workers, 1);
+  CHECK(end.text == "ended with status 1");
+  CHECK(end.crashed);
   CHECK(workers.running() == 1);
-  CHECK(workers.wait(-1, 100).empty());  // the other one has not received a signal
+  CHECK(workers.wait(nullptr, 100).empty());  // the other one has not received a signal
 }
 
 TEST_CASE("the end of a worker is known for any signals that the caller ignores") {
   std::signal(SIGCHLD, SIG_IGN);
   Workers workers;
-  workers.start(0, [](const SendLine&) { ::raise(SIGKILL); });
-  CHECK(ending_text(ending_of(workers, 0)) == "was killed by signal 9");
+  workers.start(0, "", [](const SendLine&) { ::raise(SIGKILL); });
+  const WorkerEnd end = ending_of(workers, 0);
+  CHECK(end.text == "was killed by signal 9, perhaps because memory was short");
+  CHECK_FALSE(end.crashed);
 }
 
 TEST_CASE("workers end when the process that started them is killed") {
@@ -48,7 +49,7 @@ TEST_CASE("workers end when the process that started them is killed") {
   const pid_t parent = ::fork();
   if (parent == 0) {
     Workers workers;
-    workers.start(0, [&](const SendLine&) {
+    workers.start(0, "", [&](const SendLine&) {
       if (::write(ends[1], "b", 1) == 1)
         for (;;) ::pause();
     });

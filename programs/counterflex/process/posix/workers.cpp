@@ -19,6 +19,18 @@
 #include "process/signals.hpp"
 
 namespace counterflex::cli {
+
+struct Worker {
+  pid_t process;
+  int pipe;
+  std::size_t task;
+  std::string unread{};  ///< the beginning of a line
+};
+
+struct Workers::State {
+  std::vector<Worker> workers;
+};
+
 namespace {
 
 [[noreturn]] void fail_starting() {
@@ -51,47 +63,28 @@ void send_line(int pipe, std::string_view line) {
   ::_exit(0);
 }
 
-int end_of(pid_t process) {
+WorkerEnd end_in_words(int status) {
+  if (!WIFSIGNALED(status)) {
+    const int number = WEXITSTATUS(status);
+    return {fmt::format("ended with status {}", number), number < 128};  // otherwise by a signal
+  }
+  const int signal = WTERMSIG(status);
+  const bool crashed =
+      signal == SIGSEGV || signal == SIGABRT || signal == SIGBUS || signal == SIGFPE || signal == SIGILL;
+  return {fmt::format("was killed by signal {}{}", signal,
+                      signal == SIGKILL ? ", perhaps because memory was short" : ""),
+          crashed};
+}
+
+WorkerEnd end_of(pid_t process) {
   int status = 0;
   while (::waitpid(process, &status, 0) < 0 && errno == EINTR) {
   }
-  return status;
-}
-
-}  // namespace
-
-/// Restores SIGCHLD: if the caller ignores it, `waitpid` gives no status.
-Workers::Workers() {
-  std::signal(SIGCHLD, SIG_DFL);
-}
-
-Workers::~Workers() {
-  end_all(0);
-}
-
-void Workers::start(std::size_t task, const std::function<void(const SendLine&)>& work) {
-  std::array<int, 2> ends{};
-  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_starting();
-  std::fflush(nullptr);  // otherwise the child would write it again
-  const pid_t parent = ::getpid();
-  const pid_t process = ::fork();
-  if (process == 0) {
-    ::close(ends[0]);
-    for (const Worker& other : workers_) ::close(other.pipe);
-    be_worker(parent, ends[1], work);
-  }
-  ::close(ends[1]);
-  if (process < 0) {
-    const int why = errno;
-    ::close(ends[0]);
-    errno = why;
-    fail_starting();
-  }
-  workers_.push_back({process, ends[0], task});
+  return end_in_words(status);
 }
 
 /// Reads the output of `worker`. Returns false if it has ended.
-bool Workers::read_from(Worker& worker, std::vector<WorkerEvent>& events) {
+bool read_from(Worker& worker, std::vector<WorkerEvent>& events) {
   std::array<char, 65536> bytes;
   const ssize_t n = ::read(worker.pipe, bytes.data(), bytes.size());
   if (n < 0) return errno == EINTR;
@@ -103,42 +96,77 @@ bool Workers::read_from(Worker& worker, std::vector<WorkerEvent>& events) {
   return n > 0;
 }
 
-std::vector<WorkerEvent> Workers::wait(int other, int timeout_ms) {
+}  // namespace
+
+/// Restores SIGCHLD: if the caller ignores it, `waitpid` gives no status.
+Workers::Workers() : state_(new State) {
+  std::signal(SIGCHLD, SIG_DFL);
+}
+
+Workers::~Workers() {
+  end_all(0);
+}
+
+std::size_t Workers::running() const {
+  return state_->workers.size();
+}
+
+void Workers::start(std::size_t task, const std::string&, const std::function<void(const SendLine&)>& work) {
+  std::array<int, 2> ends{};
+  if (::pipe2(ends.data(), O_CLOEXEC) != 0) fail_starting();
+  std::fflush(nullptr);  // otherwise the child would write it again
+  const pid_t parent = ::getpid();
+  const pid_t process = ::fork();
+  if (process == 0) {
+    ::close(ends[0]);
+    for (const Worker& other : state_->workers) ::close(other.pipe);
+    be_worker(parent, ends[1], work);
+  }
+  ::close(ends[1]);
+  if (process < 0) {
+    const int why = errno;
+    ::close(ends[0]);
+    errno = why;
+    fail_starting();
+  }
+  state_->workers.push_back({process, ends[0], task});
+}
+
+std::vector<WorkerEvent> Workers::wait(const AwaitedSignals* signals, int timeout_ms) {
   std::vector<pollfd> watched;
-  for (const Worker& worker : workers_) watched.push_back({worker.pipe, POLLIN, 0});
-  if (other >= 0) watched.push_back({other, POLLIN, 0});
+  for (const Worker& worker : state_->workers) watched.push_back({worker.pipe, POLLIN, 0});
+  if (signals != nullptr) watched.push_back({signals->descriptor(), POLLIN, 0});
   std::vector<WorkerEvent> events;
   if (::poll(watched.data(), watched.size(), timeout_ms) <= 0) return events;
   std::vector<Worker> still_running;
-  for (std::size_t i = 0; i < workers_.size(); ++i) {
-    Worker& worker = workers_[i];
+  for (std::size_t i = 0; i < state_->workers.size(); ++i) {
+    Worker& worker = state_->workers[i];
     if (watched[i].revents == 0 || read_from(worker, events)) {
       still_running.push_back(std::move(worker));
       continue;
     }
     ::close(worker.pipe);
-    events.push_back({worker.task, {}, true, end_of(worker.process)});
+    events.push_back({worker.task, {}, end_of(worker.process)});
   }
-  workers_ = std::move(still_running);
+  state_->workers = std::move(still_running);
   return events;
 }
 
 void Workers::end_all(int patience_ms) {
   const auto deadline = std::chrono::steady_clock::now() + std::chrono::milliseconds(patience_ms);
   if (patience_ms > 0)
-    for (const Worker& worker : workers_) ::kill(worker.process, SIGTERM);
-  while (!workers_.empty() && std::chrono::steady_clock::now() < deadline) wait(-1, 10);
-  for (const Worker& worker : workers_) {
+    for (const Worker& worker : state_->workers) ::kill(worker.process, SIGTERM);
+  while (!state_->workers.empty() && std::chrono::steady_clock::now() < deadline) wait(nullptr, 10);
+  for (const Worker& worker : state_->workers) {
     ::kill(worker.process, SIGKILL);
     ::close(worker.pipe);
     end_of(worker.process);
   }
-  workers_.clear();
+  state_->workers.clear();
 }
 
-std::string ending_text(int status) {
-  if (WIFSIGNALED(status)) return fmt::format("was killed by signal {}", WTERMSIG(status));
-  return fmt::format("ended with status {}", WEXITSTATUS(status));
+bool do_ordered(const std::function<void(const std::string& order, const SendLine&)>&) {
+  return false;
 }
 
 }  // namespace counterflex::cli

@@ -8,6 +8,7 @@
 #include <fcntl.h>
 #include <io.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <cwchar>
 #include <string>
@@ -16,11 +17,13 @@
 namespace counterflex::cli {
 namespace {
 
-std::string utf8(std::wstring_view text) {
+/// UTF-8, with / for each backslash.
+std::string portable(std::wstring_view text) {
   const int wide = static_cast<int>(text.size());
   const int size = ::WideCharToMultiByte(CP_UTF8, 0, text.data(), wide, nullptr, 0, nullptr, nullptr);
   std::string bytes(static_cast<std::size_t>(size), '\0');
   ::WideCharToMultiByte(CP_UTF8, 0, text.data(), wide, bytes.data(), size, nullptr, nullptr);
+  std::ranges::replace(bytes, '\\', '/');
   return bytes;
 }
 
@@ -43,7 +46,7 @@ std::vector<const char*> begin_process(int, char**) {
   static std::vector<std::string> arguments;
   int count = 0;
   wchar_t** words = ::CommandLineToArgvW(::GetCommandLineW(), &count);
-  for (int i = 0; i < count; ++i) arguments.push_back(utf8(words[i]));
+  for (int i = 0; i < count; ++i) arguments.push_back(portable(words[i]));
   ::LocalFree(words);
   return pointers_to(arguments);
 }
@@ -53,7 +56,7 @@ const char* const* environment_variables() {
     std::vector<std::string> found;
     wchar_t* block = ::GetEnvironmentStringsW();
     for (const wchar_t* text = block; *text != L'\0'; text += std::wcslen(text) + 1)
-      found.push_back(utf8(text));
+      found.push_back(portable(text));
     ::FreeEnvironmentStringsW(block);
     return found;
   }();

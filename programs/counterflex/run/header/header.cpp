@@ -50,7 +50,7 @@ std::string plain_name(const std::string& name) {
 }
 
 std::string file_name(const std::string& path) {
-  return path == "-" ? "STANDARD INPUT" : plain_name(std::filesystem::path(path).filename().string());
+  return path == "-" ? "STANDARD INPUT" : plain_name(std::filesystem::path(path).filename().generic_string());
 }
 
 /// At most `decimals` digits, without zeros at the end.
