@@ -79,7 +79,7 @@ class ShiftPlaces {
   Box box(std::size_t offset) const;
 
  private:
-  using Stratum = std::array<long, 5>;
+  using Stratum = std::array<long, 3>;
   void keep(const ShiftPlace& place, std::size_t offset);
   void sample(const ShiftPlace& place);
 

@@ -9,35 +9,19 @@
 namespace counterflex {
 namespace {
 
-constexpr std::size_t most_samples = 512;   // along the path; even
+// Along the path; even. Over 17 programs 39 passes; with 256 and 64 samples 61 and 84.
+constexpr std::size_t most_samples = 512;
 constexpr std::size_t most_strata = 8192;   // beyond it only the largest deviation of an offset is kept
 constexpr std::size_t most_largest = 1024;  // of the strata
-constexpr int bins_of_face = 4;             // directions: squares along the edge of a face of a cube
-constexpr int bins_around = 16;             // directions away from a contour
 
 // Solvers for different processors agree to less: of deviations that differ by less the first is the largest.
 constexpr double indistinct = 1e-11;
 
-int bin_of(double value, int bins) {
-  return std::clamp(static_cast<int>((value + 1) / 2 * bins), 0, bins - 1);
-}
-
-// The square of a cube's surface that a direction goes through.
-long bin_of_direction(const Vector3& d) {
-  Eigen::Index face = 0;
-  const double size = d.cwiseAbs().maxCoeff(&face);
-  if (!(size > 0)) return 0;
-  const Vector3 on = d / size;
-  const long side = 2 * face + (on[face] > 0 ? 1 : 0);
-  return (side * bins_of_face + bin_of(on[(face + 1) % 3], bins_of_face)) * bins_of_face +
-         bin_of(on[(face + 2) % 3], bins_of_face);
-}
-
-// Of a plane in which a contour is; 0 beside none.
-long bin_around(const Vector3& away) {
-  if (away.norm() < 1e-9) return 0;
-  const double around = std::atan2(away.y() + away.z(), away.x() + away.z());
-  return 1 + bin_of(around / pi, bins_around);
+// The face of a cube that a direction goes through.
+long face_of(const Vector3& d) {
+  Eigen::Index axis = 0;
+  d.cwiseAbs().maxCoeff(&axis);
+  return 2 * axis + (d[axis] > 0 ? 1 : 0);
 }
 
 // A cell of 32 mm: where an offset is turned, the shift differs from place to place.
@@ -85,8 +69,11 @@ void ShiftPlaces::keep(const ShiftPlace& place, std::size_t offset) {
   };
   const auto [worst, is_first] = worst_.try_emplace(offset, place);
   if (!is_first && is_larger(worst->second)) worst->second = place;
-  const Stratum stratum{static_cast<long>(offset), place.tool, bin_of_direction(place.deviation),
-                        bin_around(place.away), freedom_->turns ? cell_of(place.wanted.p_MT) : 0};
+  // Of six directions of the deviation. Without directions 54 passes in place of 39, and a shift that leaves
+  // 0.02 mm more.
+  const long is_beside_contour = place.away.norm() < 1e-9 ? 0 : 1,
+             kind = (2 * static_cast<long>(offset) + is_beside_contour) * 6 + face_of(place.deviation);
+  const Stratum stratum{place.tool, kind, freedom_->turns ? cell_of(place.wanted.p_MT) : 0};
   const auto found = strata_.find(stratum);
   if (found != strata_.end()) {
     if (is_larger(found->second)) found->second = place;
