@@ -123,8 +123,6 @@ namespace {
 // By how much a rotation vector tilts `axis`. Of a large turn about the axis its components are another
 // angle.
 double tilt_angle(const Vector3& turn, const Vector3& axis) {
-  constexpr double large = 1 * deg;
-  if (std::abs(turn.dot(axis)) < large) return tilt(turn, axis).norm();
   const Vector3 turned = exp_so3(turn) * axis;
   return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
 }
