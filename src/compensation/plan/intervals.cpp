@@ -9,14 +9,14 @@ namespace {
 constexpr double smallest_interval =
     1e-5;  // a fraction: a step that is not known as one is not searched further
 
-// A second difference far below the accuracy: the line is the curve.
+// A second difference below the accuracy: the line is the curve.
 bool is_line(const Corrections& corrections, const Interval& i, double accuracy) {
   const Correction chord = (corrections.correction(i.at[0]) + corrections.correction(i.at[4])) / 2;
-  return (corrections.correction(i.at[2]) - chord).norm() < accuracy / 4;
+  return (corrections.correction(i.at[2]) - chord).norm() < accuracy;
 }
 
 // The five nodes together are better than the parabola by about an order: it may miss by 8 times the
-// accuracy.
+// accuracy. Of 95 runs, 4 and 16 times: 7 texts, 1 line more and none.
 bool is_predicted(const Corrections& corrections, const Interval& i, double accuracy) {
   if (i.u[4] - i.u[0] < smallest_interval) return true;
   std::vector<CurveNode> parabola;
