@@ -7,6 +7,7 @@
 #include <map>
 
 #include "compensation/solve/solver.hpp"
+#include "compensation/tuning.hpp"
 #include "compensation/windows/parallel.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -83,11 +84,10 @@ struct CornerSolving {
   const StartTables* starts = nullptr;
 };
 
-/// The largest share of the tolerance. Places that need not keep it may get worse by a tenth of it.
+/// The largest share of the tolerance. Places that need not keep it may get worse by a small share.
 double most_share(const OffsetQuestion& q, const Waypoint& at) {
-  constexpr double worse = 0.1;
   if (!at.exempt && !at.insignificant) return 1;
-  return std::max(1.0, share_of_tolerance(q.options, q.model.mechanism, at.R_MT, at.after)) + worse;
+  return std::max(1.0, share_of_tolerance(q.options, q.model.mechanism, at.R_MT, at.after)) + small_share;
 }
 
 bool slice_holds(const CornerSolving& c, std::span<const LoadPlace> places) {

@@ -5,15 +5,10 @@
 #include "compensation/emit/emitter.hpp"
 #include "compensation/plan/arc_pieces.hpp"
 #include "compensation/solve/failures.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
-namespace {
-
-constexpr double sampling_share = 0.03;  // of the tolerance: for what happens between samples
-
-}  // namespace
-
 void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
                        UnsplitMiss& miss) {
   const Move& move = job_.program.moves[segment.move];

@@ -3,6 +3,7 @@
 #include <cmath>
 
 #include "compensation/emit/emitter.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -30,7 +31,6 @@ double slope(const Move& move, double rise_mm) {
 // The height of the corner at the end of a segment: in the middle of what both of its flat sides should
 // reach.
 double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const {
-  constexpr double most_share = 0.4;  // of the tolerance, off the height of the end
   const Move &move = job_.program.moves[job_.path.segments[s].move], *next = &move + 1;
   const bool follows =
       s + 1 < plan_.segments.size() && job_.path.segments[s + 1].move == job_.path.segments[s].move + 1;
@@ -41,7 +41,7 @@ double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const
                behind_it =
                    flat_part_mm(next->corners->begin_mm) * slope(*next, behind->end_mm - behind->start_mm);
   const double middle = (std::max({0.0, before_it, behind_it}) + std::min({0.0, before_it, behind_it})) / 2,
-               most = most_share * job_.options.tolerance / mm;
+               most = height_share * job_.options.tolerance / mm;
   return heights.end_mm + std::clamp(middle, -most, most);
 }
 

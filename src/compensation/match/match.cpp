@@ -6,6 +6,7 @@
 #include "compensation/match/match_pieces.hpp"
 #include "compensation/match/match_shifts.hpp"
 #include "compensation/match/match_zones.hpp"
+#include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 
@@ -114,7 +115,6 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
 
 // The correction at eighths of an arc, beside the straight line between those at its ends.
 double bend_of(const PlannedSegment& planned) {
-  constexpr int parts = 8;
   if (planned.arc.empty()) return 0;
   const auto shift_at = [&](double u) {
     const auto later =
@@ -123,8 +123,8 @@ double bend_of(const PlannedSegment& planned) {
   };
   const Vector3 first = shift_at(0), last = shift_at(1);
   double largest = 0;
-  for (int k = 1; k < parts; ++k) {
-    const double u = static_cast<double>(k) / parts;
+  for (int k = 1; k < eighths; ++k) {
+    const double u = static_cast<double>(k) / eighths;
     largest = std::max(largest, (shift_at(u) - (1 - u) * first - u * last).norm());
   }
   return largest;

@@ -6,7 +6,7 @@
 
 #include "compensation/match/match_moves.hpp"
 #include "compensation/plan/arc_angles.hpp"
-#include "compensation/tuning.hpp"
+#include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -177,9 +177,7 @@ class KindComparison {
     const Vector3 at_start = found.start_mm - original_.start_mm, at_end = found.end_mm - original_.end_mm;
     const Vector3 shift = point_at(curve_of(found), 0.5) - point_at(curve_of(original_), 0.5);
     const double off = (shift - (at_start + at_end) / 2).norm();
-    constexpr double bends = 2;
-    const double room =
-        (at_end - at_start).norm() + bends * bend_mm_ + tolerance_mm_ + roundings * rounding_mm_;
+    const double room = (at_end - at_start).norm() + 2 * bend_mm_ + tolerance_mm_ + roundings * rounding_mm_;
     if (off > room)
       fail(found,
            fmt::format("the middle of this arc is off by {:.4f} mm, between its ends {:.4f} mm are allowed",

@@ -18,7 +18,9 @@ namespace {
 
 constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
 constexpr double nearer_mm = 1e-9;
-constexpr double digits_share = 1.5;  // of the rounding: an end that is as near as this is taken at once
+// Of the rounding: an end that is as near as this is taken at once. Of 17 runs, two fail the verification
+// with 1, and one with 3.
+constexpr double digits_share = 1.5;
 
 // A feed block whose words act at its beginning is itself the first piece: the others follow it.
 bool acts_first(const Move& original, const std::string& words) {

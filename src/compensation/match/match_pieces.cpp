@@ -6,6 +6,7 @@
 
 #include "compensation/plan/arc_angles.hpp"
 #include "compensation/solve/commands.hpp"
+#include "compensation/solve/failures.hpp"
 #include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/windows.hpp"
 
@@ -13,7 +14,6 @@ namespace counterflex {
 namespace {
 
 constexpr double inner_end = 1 - 1e-9;    // only the last piece ends a move
-constexpr double jump_length = 3;         // in allowances for rounding: shorter first pieces are jumps
 constexpr int most_refinements = 20;      // three suffice but at kinks of the force
 constexpr double longest_secant = 4;      // of the plain step
 constexpr double refined_enough = 1e-10;  // m
@@ -199,12 +199,13 @@ bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
   return largest < refined_enough;
 }
 
+// A first piece is one if it is shorter than what rounding may leave of it.
 bool is_jump(const Job& job, const Piece& piece) {
   if (piece.u1 <= piece.u0) return true;
   if (piece.u0 > 0 || piece.u1 == 1) return false;
   const Move& move = job.program.moves[job.path.segments[piece.segment].move];
   const double way = (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
-  return way < jump_length * rounding_allowance(move, job.options.write);
+  return way < roundings * rounding_allowance(move, job.options.write);
 }
 
 }  // namespace

@@ -7,7 +7,6 @@
 
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
-#include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"

@@ -12,9 +12,8 @@
 namespace counterflex {
 namespace {
 
-constexpr int least_fit_samples = 16;
-constexpr double fit_angle = std::numbers::pi / 16;  // samples are at most so far apart, on all turns
-constexpr double flat_fit_angle = fit_angle / 4;     // the height that is missed bends as the arc does
+constexpr double fit_angle = angle_between_places / 2;  // samples are at most so far apart, on all turns
+constexpr double flat_fit_angle = fit_angle / 4;        // the height that is missed bends as the arc does
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double most_sweep_change = 0.1;  // rad
@@ -41,7 +40,7 @@ std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
   const double span = u1 - u0;
   const double angle = task.move.arc->flat ? flat_fit_angle : fit_angle;
   const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / angle)),
-            count = std::max(least_fit_samples, by_angle);
+            count = std::max(samples_of_piece, by_angle);
   // The height of a flat arc may be off from its start on.
   for (int k = task.move.arc->flat ? 0 : 1; k <= count; ++k) {
     const double v = static_cast<double>(k) / count;

@@ -3,9 +3,13 @@
 #include <functional>
 
 #include "compensation/plan/curve.hpp"
+#include "compensation/plan/places.hpp"
 #include "counterflex/program/rewrite.hpp"
 
 namespace counterflex {
+
+/// Of a piece of an arc, at least: twice its eighths.
+inline constexpr int samples_of_piece = 2 * eighths;
 
 /// A point at a fraction.
 using PointAt = std::function<Vector3(double u)>;

@@ -10,8 +10,8 @@ namespace counterflex {
 namespace {
 
 constexpr int most_halvings = 2 * first_halvings;
-constexpr int height_samples = 16;
-// Corners nearer to the ends of a piece do not divide it.
+// Corners nearer to the ends of a piece do not divide it. Of 17 runs over 10165 lines: 0 has 13 lines more,
+// half 11 more, twice 2 less.
 constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
 constexpr double sliver_mm = 0.1;      // at most
 
@@ -80,8 +80,8 @@ class ArcDivider {
   Vector3 middle_height(double u0, double u1) const {
     const int normal = task_.move.arc->normal;
     double low = HUGE_VAL, high = -HUGE_VAL;
-    for (int k = 0; k <= height_samples; ++k) {
-      const double height = task_.commanded(u0 + (u1 - u0) * k / height_samples)[normal];
+    for (int k = 0; k <= samples_of_piece; ++k) {
+      const double height = task_.commanded(u0 + (u1 - u0) * k / samples_of_piece)[normal];
       low = std::min(low, height);
       high = std::max(high, height);
     }

@@ -15,7 +15,7 @@ namespace {
 // A gain that is measured at one place: in steps small against any curvature, with a margin for the places
 // beside it.
 constexpr double gain_probe = 50e-6;  // m
-constexpr double gain_margin = 1.01;
+constexpr double gain_margin = 1 + curve_share;
 
 // Fractions between which points are two zones away from the ends of the segment.
 std::pair<double, double> between_zones(const Job& job, const Segment& segment) {
@@ -30,13 +30,13 @@ std::pair<double, double> between_zones(const Job& job, const Segment& segment) 
 
 double room_for_knots(const Job& job, const Segment& segment) {
   const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-  return std::max(job.options.tolerance - rounding, least_share * job.options.tolerance);
+  return std::max(job.options.tolerance - rounding, curve_share * job.options.tolerance);
 }
 
 std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain) {
   const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
   const double room = job.options.tolerance / gain - rounding;
-  if (room < least_share * job.options.tolerance) return std::nullopt;
+  if (room < curve_share * job.options.tolerance) return std::nullopt;
   return room;
 }
 

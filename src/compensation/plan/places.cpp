@@ -2,17 +2,14 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numbers>
 
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double spacing = 5 * mm;
-constexpr int most_by_length = 64;       // a program of 100 kB may hold 20 000 moves across the whole machine
-constexpr double most_by_tables = 4096;  // 0.25 mm on a line of a metre
-constexpr double angle_between_places = std::numbers::pi / 8;
+constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
 constexpr double same_fraction = 1e-9;
 
 }  // namespace
@@ -22,13 +19,13 @@ int steps_of_tables(const Job& job, const Segment& segment) {
   if (std::isinf(mechanism.error_spacing) && std::isinf(mechanism.error_spacing_angle)) return 1;
   const double way = length(segment.wanted), turned = way / mechanism.length + turn_of(segment);
   const double steps = std::ceil(way / mechanism.error_spacing + turned / mechanism.error_spacing_angle);
-  return static_cast<int>(std::clamp(steps, 1.0, most_by_tables));
+  return static_cast<int>(std::clamp(steps, 1.0, most_steps));
 }
 
 int steps_along(const Job& job, const Segment& segment) {
   if (!segment.cutting) return 1;
   const double by_length =
-      std::clamp(std::ceil((segment.s_end - segment.s_start) / spacing), 1.0, double{most_by_length});
+      std::clamp(std::ceil((segment.s_end - segment.s_start) / between_places), 1.0, double{most_by_length});
   const double angle = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
   const double by_angle = std::ceil(angle / angle_between_places);
   return std::max(static_cast<int>(std::max(by_length, by_angle)), steps_of_tables(job, segment));

@@ -10,6 +10,10 @@ namespace counterflex {
 /// Parts of a stretch without places, at whose ends it is looked at where it may curve.
 inline constexpr int eighths = 8;
 
+/// Steps of a segment at most, where tables of errors of motion or turning points need more: 0.25 mm on a
+/// line of a metre.
+inline constexpr double most_steps = 4096;
+
 /// Steps along a segment in which no axis passes more than about one position of a table of errors of motion:
 /// as if axes went as far as the tip goes, and turned as if it were at the machine's length from them. 1
 /// without tables.

@@ -7,6 +7,7 @@
 
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/solver.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/arm_margins.hpp"
 
@@ -67,7 +68,7 @@ void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd&
 // The branch is followed straight from place to place: around an arc and a turn in steps of 22.5 degrees.
 int parts_of(const Segment& segment) {
   const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0, turn_of(segment));
-  return 1 + static_cast<int>(turned / (pi / 8));
+  return 1 + static_cast<int>(turned / angle_between_places);
 }
 
 }  // namespace

@@ -22,6 +22,10 @@ std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, i
 /// the last digit times sqrt 3 (m).
 double rounding_as_read(const Move& move);
 
+/// Roundings that a relation between positions may be off by: of a start, an end and a centre, and of the
+/// original's. Shorter first pieces of a move are jumps.
+inline constexpr double roundings = 4;
+
 /// The failure of a move's words that are rounded too much for the tolerance.
 Failure few_decimals_failure(const Move& move, const CompensationOptions& options);
 

@@ -3,8 +3,10 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -12,7 +14,6 @@ namespace {
 
 constexpr double least_motion = 1e-9;     // m or rad: more than the rounding of inverse kinematics
 constexpr double longest_step = 50 * mm;  // of an arm: its axes turn back once along it
-constexpr double largest_turn = pi / 8;   // around an arc, or of the tool
 constexpr double at_ends = 1e-3;          // of a step: a turning point nearer to an end is taken to be there
 constexpr double same_place = 10 * um;
 constexpr double turning_accuracy = 1e-7;   // of a step; the axis hardly moves beside a turning point
@@ -44,8 +45,8 @@ void add_segment(const Job& job, const Segment& segment, std::vector<Place>& pla
   const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
   const bool straight = only_slides(model.mechanism) && turned == 0;
   const double steps =
-      straight ? 1 : std::ceil(length(segment.wanted) / longest_step + turned / largest_turn);
-  const int n = static_cast<int>(std::clamp(steps, 1.0, 4096.0));
+      straight ? 1 : std::ceil(length(segment.wanted) / longest_step + turned / angle_between_places);
+  const int n = static_cast<int>(std::clamp(steps, 1.0, most_steps));
   places.push_back(place_on(model, segment, 0));
   if (!straight) places.push_back(place_on(model, segment, at_ends / n));
   for (int k = 1; k < n; ++k) places.push_back(place_on(model, segment, static_cast<double>(k) / n));

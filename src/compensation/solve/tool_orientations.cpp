@@ -2,6 +2,7 @@
 
 #include <algorithm>
 
+#include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -9,7 +10,7 @@
 namespace counterflex {
 namespace {
 
-constexpr int orientations_of_segment = 9;
+constexpr int orientations_of_segment = eighths + 1;
 
 // A place that is not reached has home's: it fails where it is solved.
 std::vector<Matrix3> orientations_at(const RunInput& input, const std::vector<TipPosition>& places) {

@@ -12,7 +12,6 @@ namespace counterflex {
 namespace {
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
-constexpr double turned_way = 0.01;  // m: a change of the turn counts as much as the same turn along this way
 
 using Costs = std::array<double, spin_count>;
 
@@ -41,7 +40,8 @@ class TurnChoice {
       const int changed = way.linked ? std::abs(way.to - way.from) : 0;
       return before + of_way.sum +
              price *
-                 ((length_of(way.stop) + turned_way) * std::abs(way.to - spin_zero) + turned_way * changed) /
+                 ((length_of(way.stop) + between_stops) * std::abs(way.to - spin_zero) +
+                  between_stops * changed) /
                  spin_zero;
     };
     std::vector<std::uint8_t> from(graph_.stops.size() * spin_count);

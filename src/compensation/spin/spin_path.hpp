@@ -12,6 +12,10 @@ inline constexpr double spin_step = 5 * deg;
 inline constexpr int spin_count = 37;  ///< from -90 to 90 degrees
 inline constexpr int spin_zero = 18;   ///< as programmed
 
+/// Feed path for one step of the grid, at least (m). A change of the turn counts as much as the same turn
+/// along this way.
+inline constexpr double between_stops = 10 * mm;
+
 /// A turn is taken only if it gains this share of the largest deviation.
 inline constexpr double least_spin_gain = 0.01;
 

@@ -15,7 +15,7 @@ namespace {
 
 constexpr float forbidden = std::numeric_limits<float>::infinity();
 constexpr std::size_t places_at_once = 64;  // full batches
-constexpr double travel_room = 5 * deg;     // of turned axes to the end of their travel
+constexpr double travel_room = spin_step;   // of turned axes to the end of their travel
 constexpr double stated_room = 0.5 * deg;   // to the border of a stated turn
 constexpr double largest_step = 60 * deg;   // of an axis for a step of the grid: more is another way
 

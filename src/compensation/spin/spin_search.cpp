@@ -7,16 +7,14 @@
 #include "compensation/solve/commands.hpp"
 #include "compensation/spin/spin_path.hpp"
 #include "compensation/spin/spin_rows.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
 
-constexpr double rate = 0.5 * deg / mm;    // most turn for feed path (rad/m)
-constexpr double between_stops = 10 * mm;  // at least: one step of the grid
-constexpr double between_places = 5 * mm;  // at most, along a line
-constexpr double least_between_places = 2.5 * mm;
-constexpr std::size_t places_together = 4096;  // whose rows are in memory
+constexpr double rate = spin_step / between_stops;  // most turn for feed path (rad/m)
+constexpr std::size_t places_together = 4096;       // whose rows are in memory
 
 // Whether the correction can write another orientation at the end of the move.
 bool can_be_turned(const Move& move) {
@@ -202,7 +200,7 @@ struct SpinSearch::Impl {
     const int parts = 1 + static_cast<int>(way / between_places);
     for (int k = 1; k <= parts; ++k) {
       const double u = static_cast<double>(k) / parts, at = open.way + u * way;
-      if (at - open.sampled >= least_between_places) add_place(job, s, u, at);
+      if (at - open.sampled >= between_places / 2) add_place(job, s, u, at);
     }
     const Vector3 turn = rotation_between(*orientation_at(segment, 1), *orientation_at(segment, 0));
     open.tilting = std::max(open.tilting, way * tilt(turn, orientation_at(segment, 0)->col(2)).norm());
