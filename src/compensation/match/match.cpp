@@ -3,9 +3,7 @@
 #include <algorithm>
 #include <utility>
 
-#include "compensation/match/match_pieces.hpp"
-#include "compensation/match/match_shifts.hpp"
-#include "compensation/match/match_zones.hpp"
+#include "compensation/match/match_moves.hpp"
 #include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/windows.hpp"

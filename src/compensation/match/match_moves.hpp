@@ -1,5 +1,7 @@
 #pragma once
-/// Which moves of a corrected program belong to one of the original.
+/// Which moves of a corrected program belong to one of the original, what is compared with it, and the pieces
+/// that they command.
+#include <array>
 #include <optional>
 #include <span>
 #include <string>
@@ -60,5 +62,50 @@ std::optional<Failure> kind_failure(const Job& job, const PlannedWays& ways, con
 
 /// What an inserted block, or a piece of the original's block, must not hold; nothing where all is right.
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched);
+
+/// What the moves of a window inherit from those before them (program coordinates, mm).
+struct CarriedShifts {
+  std::array<std::optional<double>, 3> axes_mm{};  ///< by axis, of the last word in these coordinates
+  double height_mm = 0;                            ///< of the last height that is known
+};
+
+/// Both programs must set the coordinates of their moves alike, and keep external axes at the same values.
+std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched);
+
+/// The first failure of move `m`: the heights of a cycle, axes, contours and corners must be shifted alike.
+/// Updates `carried`.
+std::optional<Failure> shift_failure(const Job& job, std::size_t m, const MatchedMoves& matched,
+                                     CarriedShifts& carried);
+
+/// The last move before those that are matched.
+struct ZoneBefore {
+  double length_mm = 0;  ///< 0: it has no zone that corrections change
+  Vector3 end_mm = Vector3::Zero();
+  int line = 0;
+  /// Its zone became smaller though no point was inserted before it: then the next move must have one.
+  std::optional<Failure> smaller{};
+};
+
+/// The failure of a zone that is not the original's, or that reaches over the middle between its target and
+/// one that was inserted beside it. Updates `before`: at the end of a window its `smaller` is a failure.
+std::optional<Failure> zone_failure(const Job& job, const MatchedMoves& matched, ZoneBefore& before);
+
+/// A piece, and whether the fraction at its end is known: it is the segment's, or that of a knot of the plan.
+struct DraftPiece {
+  Piece piece;
+  bool settled = true;
+};
+
+/// Appends the pieces of matched moves that have a segment. A point inside a segment that is within the
+/// tolerance of a knot of the plan has the knot's fraction. Any other gets the fraction to which it projects:
+/// on a line along it, on an arc by its angle about the centre, over all turns; no error of a fraction
+/// reaches the next one.
+void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& matched,
+                std::vector<DraftPiece>& pieces);
+
+/// The fraction of an inserted point is that of the place of the tip along the segment,
+/// found from the projected one by Newton's method. A jump of the correction at the start of a segment, and
+/// what goes backwards, gives no piece: what follows begins where it ends, and is judged from there on.
+std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

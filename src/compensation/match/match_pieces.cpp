@@ -1,9 +1,8 @@
-#include "compensation/match/match_pieces.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "compensation/match/match_moves.hpp"
 #include "compensation/plan/arc_angles.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"

@@ -1,10 +1,10 @@
-#include "compensation/match/match_zones.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <limits>
 #include <string_view>
+
+#include "compensation/match/match_moves.hpp"
 
 namespace counterflex {
 namespace {

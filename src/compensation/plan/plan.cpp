@@ -4,7 +4,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compensation/plan/intervals.hpp"
+#include "compensation/plan/corrections.hpp"
 #include "compensation/plan/knots.hpp"
 #include "compensation/plan/places.hpp"
 #include "compensation/tuning.hpp"
