@@ -78,6 +78,7 @@ struct FileWriter::State {
   std::string temporary{};  ///< its name until then
   std::optional<Unpublished> known{};
   Descriptor file{};
+  Descriptor kept{};  ///< so that the complete file is not taken to be abandoned before it has its name
   std::string buffer{};
   bool is_complete = false;
   std::optional<Sha256> hash{};
@@ -149,6 +150,7 @@ void FileWriter::complete() {
   State& s = *state_;
   if (s.is_complete) return;
   s.flush();
+  if (!is_stream()) s.kept = Descriptor(::dup(s.file.get()));
   if (!is_stream() && (!system::flush_to_disk(s.file.get()) || !s.file.close())) fail_writing(s.path);
   if (s.hash) s.digits = s.hash->digits();
   s.is_complete = true;
@@ -176,6 +178,7 @@ void FileWriter::rename() {
   if (!system::rename_file(s.temporary, s.target)) fail_writing(s.path);
   s.temporary.clear();
   s.known.reset();
+  s.kept = Descriptor();
 }
 
 void FileWriter::send() {

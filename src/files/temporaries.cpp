@@ -39,8 +39,8 @@ std::size_t sweep_folder(const std::filesystem::path& folder, const std::set<std
   }
   std::size_t removed = 0;
   for (const std::filesystem::path& file : left)
-    if (!(abandoned_alone && system::is_being_written(file.generic_string())) &&
-        std::filesystem::remove(file, ignored))
+    if (abandoned_alone ? system::remove_abandoned(file.generic_string())
+                        : std::filesystem::remove(file, ignored))
       ++removed;
   return removed;
 }

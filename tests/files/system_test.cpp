@@ -4,10 +4,12 @@
 #include <unistd.h>
 
 #include <array>
+#include <atomic>
 #include <cerrno>
 #include <filesystem>
 #include <fstream>
 #include <string>
+#include <thread>
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/file_writer.hpp"
@@ -120,6 +122,8 @@ TEST_CASE("a file that is being written is not swept, and its name disappears wi
     FileWriter writer(folder.file("out"));
     writer.write("x");
     CHECK(sweep_abandoned({folder.file("out")}) == 0);
+    writer.complete();
+    CHECK(sweep_abandoned({folder.file("out")}) == 0);
     CHECK(folder.count() == 1);
     remove_unpublished();
   }
@@ -144,6 +148,32 @@ TEST_CASE("a file that another program has opened is replaced whole, or stays wh
     expected = "old";
   }
   CHECK(read_file(file) == expected);
+  CHECK(folder.count() == 1);
+}
+
+TEST_CASE(
+    "two processes that write one file at once, and remove what killed ones left, do not disturb each "
+    "other") {
+  const NamedFolder folder;
+  const std::string file = folder.file("out");
+  std::atomic<bool> goes_on{true};
+  std::atomic<int> failures{0};
+  std::thread other([&] {
+    while (goes_on) sweep_abandoned({file});
+  });
+  for (int i = 0; i < 300; ++i) {
+    try {
+      FileWriter writer(file);
+      writer.write("whole");
+      writer.publish();
+    } catch (const InputError&) {
+      ++failures;
+    }
+  }
+  goes_on = false;
+  other.join();
+  CHECK(failures == 0);
+  CHECK(read_file(file) == "whole");
   CHECK(folder.count() == 1);
 }
 

@@ -34,9 +34,11 @@ int open_stream(const std::string& path);
 /// A file to read and write, which is made if it does not exist.
 int open_or_make(const std::string& path);
 
-/// A new file to write. `is_being_written` is true for it until it is closed.
+/// A new file to write. `remove_abandoned` leaves it while this descriptor, or a copy of it, is open.
 int make_file(const std::string& path);
-bool is_being_written(const std::string& path);
+
+/// Removes a file of `make_file` that no process has open. Whether it did.
+bool remove_abandoned(const std::string& path);
 
 /// An empty file without a name, in the folder for temporary files.
 int make_nameless_file();

@@ -72,15 +72,22 @@ int open_or_make(const std::string& path) {
   return ::open(path.c_str(), O_RDWR | O_CREAT | O_CLOEXEC, 0644);
 }
 
+/// A lock shows that its writer is running. What removes abandoned files may have it first, and removes the
+/// file.
 int make_file(const std::string& path) {
-  const int fd = ::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644);
-  if (fd >= 0) ::flock(fd, LOCK_EX | LOCK_NB);  // shows that its writer is running
-  return fd;
+  Descriptor file(::open(path.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_CLOEXEC, 0644));
+  if (file.get() < 0) return -1;
+  const bool taken = ::flock(file.get(), LOCK_EX | LOCK_NB) != 0 && errno == EWOULDBLOCK;
+  struct stat found {};
+  if (!taken && (::fstat(file.get(), &found) != 0 || found.st_nlink > 0)) return file.release();
+  file.close();
+  errno = EEXIST;
+  return -1;
 }
 
-bool is_being_written(const std::string& path) {
+bool remove_abandoned(const std::string& path) {
   const Descriptor file(::open(path.c_str(), O_RDONLY | O_CLOEXEC | O_NOFOLLOW | O_NONBLOCK));
-  return file.get() < 0 || ::flock(file.get(), LOCK_EX | LOCK_NB) != 0;
+  return file.get() >= 0 && ::flock(file.get(), LOCK_EX | LOCK_NB) == 0 && ::unlink(path.c_str()) == 0;
 }
 
 int make_nameless_file() {

@@ -214,9 +214,10 @@ int make_file(const std::string& path) {
 }
 
 /// The system refuses to open it where no other process may write it.
-bool is_being_written(const std::string& path) {
+bool remove_abandoned(const std::string& path) {
   constexpr DWORD share = FILE_SHARE_READ | FILE_SHARE_DELETE;
-  return !Handle(open(path, GENERIC_READ, share, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT)).is_open();
+  const Handle file(open(path, GENERIC_READ, share, OPEN_EXISTING, FILE_FLAG_OPEN_REPARSE_POINT));
+  return file.is_open() && ::DeleteFileW(wide(path).c_str()) != 0;
 }
 
 int make_nameless_file() {
