@@ -11,7 +11,7 @@ namespace {
 
 [[noreturn]] void fail_keeping() {
   throw InputError(ErrorKind::transient_io, {},
-                   "cannot keep what was read in a temporary file: " + system::reason_of(errno));
+                   "cannot keep a text in a temporary file: " + system::reason_of(errno));
 }
 
 }  // namespace
