@@ -51,6 +51,14 @@ struct NominalResult {
 /// components has a condition above 1e6.
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT);
 
+/// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and
+/// its condition (lengths in units of l; infinite where a zero mode of the closures moves the platform).
+struct ActuatorJacobian {
+  Eigen::MatrixXd J;
+  double condition = 0;
+};
+ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal);
+
 /// The same from target to target; it keeps what it learned at the last one. Where a target is not reached
 /// the configuration stays.
 class NominalPath {
@@ -61,6 +69,8 @@ class NominalPath {
   NominalPath& operator=(NominalPath&&) noexcept;
   Status go_to(const Pose& X_MT);
   const Configuration& configuration() const { return configuration_; }
+  /// As `actuator_jacobian` at the configuration.
+  const ActuatorJacobian& jacobian() const;
 
  private:
   struct Impl;
@@ -81,14 +91,6 @@ bool within_travel(const Mechanism& mechanism, const double* rho);
 /// Full turns (rad) to add to `rho`, the values of all actuators, so that rotary ones are nearest to `near`.
 Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& rho,
                            const Eigen::VectorXd& near);
-
-/// The matrix from actuator steps to steps of the controlled components (SI), at a nominal configuration, and
-/// its condition (lengths in units of l; infinite where a zero mode of the closures moves the platform).
-struct ActuatorJacobian {
-  Eigen::MatrixXd J;
-  double condition = 0;
-};
-ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal);
 
 /// Deviation of a pose from a wanted one: position (m), rotation vector of R_actual R_target' (rad), axes of
 /// M.
@@ -125,6 +127,7 @@ class NominalToolPath {
   Status go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT = {});
 
   const Configuration& configuration() const { return path_->configuration(); }
+  const ActuatorJacobian& jacobian() const { return path_->jacobian(); }
   NominalPlace place() const { return {model_, configuration()}; }
 
   /// Orientation of the tip at the current configuration, in M.

@@ -26,6 +26,7 @@ class Follower {
     return path_of(place, *path_);
   }
   const Configuration& configuration() const { return path_->configuration(); }
+  const ActuatorJacobian& jacobian() const { return path_->jacobian(); }
 
  private:
   static Status path_of(const LoadPlace& place, NominalToolPath& path) {
@@ -53,7 +54,7 @@ MachineAlong machine_along(const Machine& machine, const Model& model, const std
     const Configuration& nominal = follower.configuration();
     at.place = place_of(*place.model, nominal, rho);
     rho = joint_values(place.model->mechanism.shown, at.place.shown);
-    at.conditioning = 1 / actuator_jacobian(*place.model, nominal).condition;
+    at.conditioning = 1 / follower.jacobian().condition;
     at.lines = skeleton(place.model->mechanism, nominal);
   }
   return along;

@@ -14,18 +14,18 @@ Kinematics::Kinematics(const Mechanism& mechanism, Moving moving) : mechanism_(m
   decomposition_.setThreshold(rank_threshold);
 }
 
-WholeSystem Kinematics::closures(const Configuration& configuration, const Units& units) {
+Closures Kinematics::closures(const Configuration& configuration, const Units& units) {
   for (std::size_t i = 0; i < works_.size(); ++i)
     evaluate(mechanism_.chains[i], configuration.chains[i], configuration.X_MP, nominal_stage,
              Vector3::Zero(), Hessians::no, works_[i]);
-  return assemble_whole(mechanism_, works_, {}, units);
+  return assemble_closures(mechanism_, works_, units);
 }
 
-std::vector<int> Kinematics::columns(const WholeSystem& system) const {
+std::vector<int> Kinematics::columns(const Closures& closures) const {
   std::vector<int> list;
-  for (int i = 0; i < static_cast<int>(system.variables.size()); ++i) {
-    const Variable& variable = system.variables[i];
-    if (i >= system.pose ? moving_.platform
+  for (int i = 0; i < static_cast<int>(closures.variables.size()); ++i) {
+    const Variable& variable = closures.variables[i];
+    if (i >= closures.pose ? moving_.platform
                          : !variable.elastic && (moving_.actuators || variable.actuator < 0))
       list.push_back(i);
   }
@@ -56,12 +56,12 @@ void Kinematics::linearise(const Equations& equations) {
   is_linearised_ = true;
 }
 
-double Kinematics::step(const Eigen::VectorXd& x, const WholeSystem& system,
+double Kinematics::step(const Eigen::VectorXd& x, const Closures& closures,
                         Configuration& configuration) const {
   WholeStep whole;
-  whole.variables.setZero(static_cast<Eigen::Index>(system.variables.size()));
-  whole.variables(columns(system)) = x;
-  whole.wrenches.setZero(system.C.rows());
+  whole.variables.setZero(static_cast<Eigen::Index>(closures.variables.size()));
+  whole.variables(columns(closures)) = x;
+  whole.wrenches.setZero(closures.C.rows());
   return apply(mechanism_, whole, kinematic_units, configuration);
 }
 

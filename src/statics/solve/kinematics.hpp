@@ -20,21 +20,21 @@ class Kinematics {
   /// the last linearisation while that contracts. Returns the final norm of what is left (m and rad).
   double solve(const Pose* X_MT, Configuration& configuration);
 
-  /// The closures (C and gap) of the nominal machine; the rest of the system is not that of an equilibrium.
-  WholeSystem closures(const Configuration& configuration, const Units& units);
+  /// The closures of the nominal machine.
+  Closures closures(const Configuration& configuration, const Units& units);
 
-  /// Columns of the whole system that move.
-  std::vector<int> columns(const WholeSystem& system) const;
+  /// Columns of the closures that move.
+  std::vector<int> columns(const Closures& closures) const;
 
  private:
   struct Equations {
-    WholeSystem closures;
+    Closures closures;
     std::optional<Controlled> tip;
     Eigen::VectorXd errors() const;
   };
   Equations equations(const Pose* X_MT, const Configuration& configuration);
   void linearise(const Equations& equations);
-  double step(const Eigen::VectorXd& x, const WholeSystem& system, Configuration& configuration) const;
+  double step(const Eigen::VectorXd& x, const Closures& closures, Configuration& configuration) const;
 
   const Mechanism& mechanism_;
   Moving moving_;

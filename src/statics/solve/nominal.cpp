@@ -60,15 +60,15 @@ bool platform_is_loose(const Eigen::MatrixXd& J_free, const Eigen::MatrixXd& con
 ActuatorJacobian jacobian_of(const Mechanism& mechanism, Kinematics& held, const Configuration& nominal) {
   if (mechanism.travel.empty()) return {Eigen::MatrixXd::Zero(6, 0), 1};
   const Units units{mechanism.length};
-  const WholeSystem whole = held.closures(nominal, units);
+  const Closures closures = held.closures(nominal, units);
   std::vector<int> commanded(mechanism.travel.size());
-  for (int i = 0; i < static_cast<int>(whole.variables.size()); ++i)
-    if (whole.variables[i].actuator >= 0) commanded[whole.variables[i].actuator] = i;
-  const Eigen::MatrixXd J_free = whole.C(Eigen::all, held.columns(whole));
+  for (int i = 0; i < static_cast<int>(closures.variables.size()); ++i)
+    if (closures.variables[i].actuator >= 0) commanded[closures.variables[i].actuator] = i;
+  const Eigen::MatrixXd J_free = closures.C(Eigen::all, held.columns(closures));
   Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
   decomposition.setThreshold(rank_threshold);
   decomposition.compute(J_free);
-  const Eigen::MatrixXd motion = -solved(decomposition, Eigen::MatrixXd(whole.C(Eigen::all, commanded)));
+  const Eigen::MatrixXd motion = -solved(decomposition, Eigen::MatrixXd(closures.C(Eigen::all, commanded)));
   const Controlled at_tip = tip_equations(mechanism, nominal.X_MP, tip(mechanism, nominal), units);
   ActuatorJacobian result{at_tip.rows * motion.bottomRows(6), 1};
   const Eigen::VectorXd sigma = Eigen::JacobiSVD<Eigen::MatrixXd>(result.J).singularValues();
@@ -134,16 +134,21 @@ struct NominalPath::Impl {
     return moving.solve(&X_MT, configuration) < closure_tolerance * 10;
   }
 
+  const ActuatorJacobian& jacobian_at(const Configuration& configuration) {
+    if (!jacobian) jacobian = jacobian_of(model.mechanism, held, configuration);
+    return *jacobian;
+  }
+
   // Solves for the next target on the way; false where it is not reached or a branch jump shows.
   bool advances(const Pose& now, const Pose& goal, Configuration& configuration) {
     const Mechanism& mechanism = model.mechanism;
-    if (!jacobian) jacobian = jacobian_of(mechanism, held, configuration);
+    const ActuatorJacobian& here = jacobian_at(configuration);
     Configuration next = configuration;
     if (!reaches(goal, next)) return false;
     const Eigen::VectorXd drho = actuator_values(mechanism, next) - actuator_values(mechanism, configuration);
-    if (is_jump(mechanism, *jacobian, drho, now, goal)) return false;
+    if (is_jump(mechanism, here, drho, now, goal)) return false;
     ActuatorJacobian there = jacobian_of(mechanism, held, next);
-    if (determinant_is_positive(there) != determinant_is_positive(*jacobian))
+    if (determinant_is_positive(there) != determinant_is_positive(here))
       return false;  // a singularity was crossed
     jacobian = std::move(there);
     configuration = std::move(next);
@@ -175,6 +180,10 @@ Status NominalPath::go_to(const Pose& X_MT) {
   const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
   return judged && impl_->jacobian->condition > largest_jacobian_condition ? Status::singular
                                                                            : Status::converged;
+}
+
+const ActuatorJacobian& NominalPath::jacobian() const {
+  return impl_->jacobian_at(configuration_);
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {

@@ -11,20 +11,6 @@
 namespace counterflex {
 namespace {
 
-int count_columns(const Series& series) {
-  int count = series.columns;
-  for (const SeriesGroup& group : series.groups)
-    for (const Series& branch : group.branches) count += count_columns(branch);
-  return count;
-}
-
-int count_closures(const Series& series) {
-  int count = 6;
-  for (const SeriesGroup& group : series.groups)
-    for (const Series& branch : group.branches) count += count_closures(branch);
-  return count;
-}
-
 // A column before the point that the walk has reached, and the rotation that it causes there (axes of that
 // frame).
 struct Turning {
@@ -32,71 +18,104 @@ struct Turning {
   Vector3 w;
 };
 
-// Walks all series in one fixed order, each with the offsets of its variables and closures.
-struct Assembler {
-  const Units& units;
-  WholeSystem& system;
-  int variable = 0, closure = 0;
+// A series in the system: where its variables and closures begin.
+struct ListedSeries {
+  const Series& series;
+  const SeriesWork& work;
+  int variable, closure;
+  int parent = -1;              // of a branch: its number in the list
+  const Part* group = nullptr;  // and its group there
+};
 
-  void series(const Series& series, const SeriesWork& work, int end_variable,
-              const std::vector<Turning>& outside) {
-    const int v0 = variable, c0 = closure;
-    variable += series.columns;
-    closure += 6;
-    describe(series, v0);
-    const Vector6 pose = units.of_pose();
-    for (int j = 0; j < series.columns; ++j) {
-      const double scale = units.of_column(series.angular[j]);
-      Vector6 column;
-      column << work.v.col(j), work.w.col(j);
-      system.C.block<6, 1>(c0, v0 + j) = scale * column.cwiseQuotient(pose);
-      system.gradient[v0 + j] = scale / units.energy() * work.gradient[j];
-      for (int i = 0; i < series.columns; ++i)
-        system.A(v0 + i, v0 + j) = scale * units.of_column(series.angular[i]) / units.energy() * work.A(i, j);
-    }
-    system.C.block<6, 6>(c0, end_variable) = -Matrix6::Identity();
-    system.gap.segment<6>(c0) = work.gap.cwiseQuotient(pose);
-    if (series.leans) lean(work, v0, outside);
+// All series in one fixed order, branches behind what they are part of; then the platform's variables.
+struct SeriesList {
+  std::vector<ListedSeries> all;
+  int pose = 0;
+
+  SeriesList(const Mechanism& mechanism, const std::vector<SeriesWork>& works) {
+    for (std::size_t i = 0; i < works.size(); ++i) add(mechanism.chains[i], works[i], -1, nullptr);
+  }
+
+  void add(const Series& series, const SeriesWork& work, int parent, const Part* group) {
+    const int own = static_cast<int>(all.size());
+    all.push_back({series, work, pose, 6 * own, parent, group});
+    pose += series.columns;
     for (const Part& part : series.parts) {
       if (part.kind != PartKind::group) continue;
-      const auto turnings = turnings_before(series, part, work, v0, outside);
       for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-        this->series(series.groups[part.group].branches[b], work.groups[part.group][b], v0 + part.column,
-                     turnings);
+        add(series.groups[part.group].branches[b], work.groups[part.group][b], own, &part);
     }
   }
 
-  // Weights inside a branch couple its columns to everything that turns its start frame.
-  void lean(const SeriesWork& work, int v0, const std::vector<Turning>& outside) {
-    for (const Turning& turning : outside)
-      for (int j = 0; j < work.lean.A_w.rows(); ++j) {
-        const int row = v0 + j;
-        const double entry = units.of_column(system.variables[row].angular) / units.energy() *
-                             work.lean.A_w.row(j).dot(turning.w);
-        system.A(row, turning.variable) = entry;
-        system.A(turning.variable, row) = entry;
-      }
-  }
-
-  static std::vector<Turning> turnings_before(const Series& series, const Part& group, const SeriesWork& work,
-                                              int v0, const std::vector<Turning>& outside) {
-    if (series.mass == 0) return {};
-    const Matrix3 R = work.v.middleCols<3>(group.column);
-    std::vector<Turning> list;
-    for (const Turning& turning : outside) list.push_back({turning.variable, R.transpose() * turning.w});
-    for (int k = 0; k < group.column; ++k)
-      if (series.turns(k)) list.push_back({v0 + k, R.transpose() * work.w.col(k)});
-    return list;
-  }
-
-  void describe(const Series& series, int v0) {
-    for (const Part& part : series.parts) {
-      const bool elastic = part.kind == PartKind::spring || part.kind == PartKind::compliance;
-      for (int k = 0; k < columns_of(part); ++k)
-        system.variables[v0 + part.column + k] = {series.angular[part.column + k], elastic, part.actuator};
-    }
+  // First variable of the frame at the end of a series.
+  int end_of(const ListedSeries& at) const {
+    return at.group == nullptr ? pose : all[at.parent].variable + at.group->column;
   }
 };
+
+void describe(const ListedSeries& at, std::vector<Variable>& variables) {
+  for (const Part& part : at.series.parts) {
+    const bool elastic = part.kind == PartKind::spring || part.kind == PartKind::compliance;
+    for (int k = 0; k < columns_of(part); ++k)
+      variables[at.variable + part.column + k] = {at.series.angular[part.column + k], elastic, part.actuator};
+  }
+}
+
+Closures closures_of(const SeriesList& list, const Units& units) {
+  Closures closures;
+  closures.pose = list.pose;
+  closures.variables.resize(list.pose + 6);
+  const auto rows = 6 * static_cast<Eigen::Index>(list.all.size());
+  closures.C.setZero(rows, list.pose + 6);
+  closures.gap.resize(rows);
+  const Vector6 pose = units.of_pose();
+  for (const ListedSeries& at : list.all) {
+    describe(at, closures.variables);
+    for (int j = 0; j < at.series.columns; ++j) {
+      Vector6 column;
+      column << at.work.v.col(j), at.work.w.col(j);
+      closures.C.block<6, 1>(at.closure, at.variable + j) =
+          units.of_column(at.series.angular[j]) * column.cwiseQuotient(pose);
+    }
+    closures.C.block<6, 6>(at.closure, list.end_of(at)) = -Matrix6::Identity();
+    closures.gap.segment<6>(at.closure) = at.work.gap.cwiseQuotient(pose);
+  }
+  for (int k = 3; k < 6; ++k) closures.variables[list.pose + k].angular = true;
+  return closures;
+}
+
+// What turns the start frame of a branch, `outside` being what turns that of its parent.
+std::vector<Turning> turnings_before(const ListedSeries& parent, const Part& group,
+                                     const std::vector<Turning>& outside) {
+  if (parent.series.mass == 0) return {};
+  const Matrix3 R = parent.work.v.middleCols<3>(group.column);
+  std::vector<Turning> list;
+  for (const Turning& turning : outside) list.push_back({turning.variable, R.transpose() * turning.w});
+  for (int k = 0; k < group.column; ++k)
+    if (parent.series.turns(k))
+      list.push_back({parent.variable + k, R.transpose() * parent.work.w.col(k)});
+  return list;
+}
+
+// The energy of a series: A and gradient.
+void add_energy(const ListedSeries& at, const std::vector<Turning>& outside, const Units& units,
+                WholeSystem& system) {
+  const auto unit = [&](int column) { return units.of_column(at.series.angular[column]); };
+  const int v0 = at.variable;
+  for (int j = 0; j < at.series.columns; ++j) {
+    system.gradient[v0 + j] = unit(j) / units.energy() * at.work.gradient[j];
+    for (int i = 0; i < at.series.columns; ++i)
+      system.A(v0 + i, v0 + j) = unit(j) * unit(i) / units.energy() * at.work.A(i, j);
+  }
+  if (!at.series.leans) return;
+  // Weights inside a branch couple its columns to everything that turns its start frame.
+  for (const Turning& turning : outside)
+    for (int j = 0; j < at.work.lean.A_w.rows(); ++j) {
+      const double entry = unit(j) / units.energy() * at.work.lean.A_w.row(j).dot(turning.w);
+      system.A(v0 + j, turning.variable) = entry;
+      system.A(turning.variable, v0 + j) = entry;
+    }
+}
 
 // Columns of the variables that equilibrium determines: all, or all but the actuators.
 std::vector<int> unknowns(const WholeSystem& system, bool with_actuators) {
@@ -167,25 +186,24 @@ struct StepApplier {
 
 }  // namespace
 
+Closures assemble_closures(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
+                           const Units& units) {
+  return closures_of({mechanism, works}, units);
+}
+
 WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
                            const PlatformTerms& platform, const Units& units) {
-  WholeSystem system;
-  int variables = 6, closures = 0;
-  for (const Series& chain : mechanism.chains) {
-    variables += count_columns(chain);
-    closures += count_closures(chain);
+  const SeriesList list(mechanism, works);
+  WholeSystem system{closures_of(list, units)};
+  system.A.setZero(list.pose + 6, list.pose + 6);
+  system.gradient.setZero(list.pose + 6);
+  std::vector<std::vector<Turning>> outside(list.all.size());
+  for (std::size_t i = 0; i < list.all.size(); ++i) {
+    const ListedSeries& at = list.all[i];
+    if (at.group != nullptr) outside[i] = turnings_before(list.all[at.parent], *at.group, outside[at.parent]);
+    add_energy(at, outside[i], units, system);
   }
-  system.pose = variables - 6;
-  system.variables.resize(variables);
-  system.A.setZero(variables, variables);
-  system.C.setZero(closures, variables);
-  system.gradient.setZero(variables);
-  system.gap.setZero(closures);
-  Assembler assembler{units, system};
-  for (std::size_t i = 0; i < works.size(); ++i)
-    assembler.series(mechanism.chains[i], works[i], system.pose, {});
   const Vector6 pose = units.of_pose();
-  for (int k = 3; k < 6; ++k) system.variables[system.pose + k].angular = true;
   system.gradient.tail<6>() = platform.gradient.cwiseProduct(pose) / units.energy();
   system.A.bottomRightCorner<6, 6>() = pose.asDiagonal() * platform.A * pose.asDiagonal() / units.energy();
   return system;

@@ -18,14 +18,20 @@ struct Variable {
   int actuator = -1;     ///< its number, where it is one
 };
 
+/// The closures of all chains and branches, C dv = gap, without unit.
+struct Closures {
+  std::vector<Variable> variables;
+  Eigen::MatrixXd C;
+  Eigen::VectorXd gap;
+  int pose = 0;  ///< first of the platform's variables
+};
+
 ///     [ A  -C' ] [ dv      ]   [ -gradient ]
 ///     [ C   0  ] [ dlambda ] = [  gap      ]        v: variables, lambda: wrenches of closures, all without
 ///     unit
-struct WholeSystem {
-  std::vector<Variable> variables;
-  Eigen::MatrixXd A, C;
-  Eigen::VectorXd gradient, gap;
-  int pose = 0;       ///< first of the platform's variables
+struct WholeSystem : Closures {
+  Eigen::MatrixXd A;
+  Eigen::VectorXd gradient;
   double wrench = 0;  ///< largest that acts or is carried, at least 1 N; without unit
   /// How far the forces are from balance, at most what a solution may miss; without unit.
   double force_error = 0;
@@ -38,6 +44,8 @@ struct PlatformTerms {
 };
 
 /// From evaluated works (not condensed ones).
+Closures assemble_closures(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
+                           const Units& units);
 WholeSystem assemble_whole(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
                            const PlatformTerms& platform, const Units& units);
 
