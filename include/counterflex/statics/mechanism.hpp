@@ -95,6 +95,12 @@ struct Mechanism {
 /// The series of `machine`, without home: `prepare` in nominal.hpp also finds the home configuration.
 Mechanism compile(const Machine& machine);
 
+/// Whether the machine controls a component of its tip's pose.
+bool controls(const Mechanism& mechanism, Component component);
+
+/// Whether actuators go straight where the tip does: one chain of slides.
+bool only_slides(const Mechanism& mechanism);
+
 /// Whether weights act, or a zero set at home (against preloads alone, too): only then does Stage::gravity
 /// change anything.
 bool has_weight(const Mechanism& mechanism);

@@ -27,15 +27,6 @@ struct Place {
   const Segment* segment = nullptr;
 };
 
-/// Whether actuators go straight where the tip does.
-bool only_slides(const Mechanism& mechanism) {
-  const auto slides = [](const Part& part) {
-    const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
-    return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
-  };
-  return mechanism.chains.size() == 1 && std::ranges::all_of(mechanism.chains.front().parts, slides);
-}
-
 Place place_on(const Model& model, const Segment& segment, double u) {
   return {segment.move, u, {&model, point_at(segment.wanted, u), orientation_at(segment, u)}, &segment};
 }

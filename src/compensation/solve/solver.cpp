@@ -19,10 +19,6 @@ bool controls_only_positions(const Mechanism& mechanism) {
                      [](Component c) { return c <= Component::z; });
 }
 
-bool controls(const Mechanism& mechanism, int component) {
-  return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), Component{component}) > 0;
-}
-
 Status travel_status(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
   return within_travel(mechanism, rho) ? Status::converged : Status::outside_travel;
 }
@@ -141,7 +137,7 @@ void PlaceSolver::targets(std::span<const TargetRequest> requests, std::span<Tar
   for (std::size_t i = 0; i < requests.size(); ++i) {
     TargetAnswer& answer = answers[i];
     for (int c = 0; c < 3; ++c)
-      if (!controls(requests[i].model->mechanism, c)) answer.target[c] = requests[i].p_MT[c];
+      if (!controls(requests[i].model->mechanism, Component{c})) answer.target[c] = requests[i].p_MT[c];
     if (requests[i].R_MT)
       answer.turn = rotation_between(exp_so3(answer.turn) * *moved_[i].R_MT, *requests[i].R_MT);
   }
@@ -333,7 +329,8 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
   answer.status = commanded.status;
   const Pose target = tip(mechanism, commanded.configuration);
   for (int c = 0; c < 3; ++c)
-    if (controls(mechanism, c)) answer.target[c] = target.p[c];  // the other components are not written
+    if (controls(mechanism, Component{c}))
+      answer.target[c] = target.p[c];  // the other components are not written
   if (request.R_MT) answer.turn = rotation_between(target.R, *request.R_MT);
   if (answer.status == Status::converged) answer.status = travel_status(mechanism, rho);
   return answer;

@@ -172,18 +172,18 @@ struct Single::Impl {
   bool contracts() {
     Work<double>& w = work();
     displace();
-    double last = 0, ratio = 0;
+    double first = 0, share = 1;
     for (int i = 0; i < 4; ++i) {
       evaluate(w);
       find_held_step(w);
       find_inner_steps(w);
       take_step<double>(true, w);
-      if (i > 0) ratio = w.step.size / last;
-      if (i > 0 && !(ratio < judging_contraction)) return false;
-      if (ratio < negligible_contraction && i > 0) return true;
-      last = w.step.size;
+      if (i == 0)
+        first = w.step.size;
+      else
+        share *= judging_contraction;
     }
-    return true;
+    return w.step.size < share * first;
   }
 
   void note_first_step(SingleAnswer& answer) {

@@ -171,6 +171,18 @@ bool has_preload(const Mechanism& mechanism) {
   return std::ranges::any_of(mechanism.chains, [](const Series& chain) { return has_preload(chain); });
 }
 
+bool controls(const Mechanism& mechanism, Component component) {
+  return std::ranges::count(mechanism.controlled, component) > 0;
+}
+
+bool only_slides(const Mechanism& mechanism) {
+  const auto slides = [](const Part& part) {
+    const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
+    return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
+  };
+  return mechanism.chains.size() == 1 && std::ranges::all_of(mechanism.chains.front().parts, slides);
+}
+
 bool has_weight(const Mechanism& mechanism) {
   if (mechanism.gravity.isZero(0)) return false;
   return !zero_offsets(mechanism).isZero(0) ||

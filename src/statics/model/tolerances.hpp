@@ -79,9 +79,9 @@ inline constexpr double stiff_enough = 1e9;
 /// A pivot of the kernel that keeps this share of its unloaded value is as stable and as well conditioned as
 /// without the load, up to this factor.
 inline constexpr double least_stiffness = 0.5;
-/// Where tangents leave out how hanging weights turn, their pivots judge stability if a displacement (in
-/// units of l) contracts by less than the first share in each of four steps, or by less than the second one.
-inline constexpr double test_displacement = 1e-6, judging_contraction = 0.3, negligible_contraction = 1e-3;
+/// Where tangents leave out how hanging weights turn, their pivots judge stability if three more steps leave
+/// less than the cube of the second number of a displacement (the first one, in units of l).
+inline constexpr double test_displacement = 1e-6, judging_contraction = 0.3;
 
 // Cells.
 /// Edges, in units of l; straight: one chain only slides, so that nominal kinematics does not bend.

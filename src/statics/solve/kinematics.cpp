@@ -26,7 +26,7 @@ std::vector<int> Kinematics::columns(const Closures& closures) const {
   for (int i = 0; i < static_cast<int>(closures.variables.size()); ++i) {
     const Variable& variable = closures.variables[i];
     if (i >= closures.pose ? moving_.platform
-                         : !variable.elastic && (moving_.actuators || variable.actuator < 0))
+                           : !variable.elastic && (moving_.actuators || variable.actuator < 0))
       list.push_back(i);
   }
   return list;

@@ -10,20 +10,6 @@ namespace {
 
 constexpr double farthest_cell = 1e9;  // from the origin of M, in edges: their numbers fit
 
-bool controls(const Mechanism& mechanism, Component c) {
-  return std::count(mechanism.controlled.begin(), mechanism.controlled.end(), c) > 0;
-}
-
-bool only_slides(const Mechanism& mechanism) {
-  return mechanism.chains.size() == 1 &&
-         std::all_of(mechanism.chains.begin(), mechanism.chains.end(), [](const Series& chain) {
-           return std::all_of(chain.parts.begin(), chain.parts.end(), [](const Part& part) {
-             const bool turns = part.kind == PartKind::actuator && part.joint.kind == JointKind::revolute;
-             return !turns && part.kind != PartKind::passive && part.kind != PartKind::group;
-           });
-         });
-}
-
 /// How many cells of a target fit into `bytes_of_cells`.
 std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());

@@ -92,8 +92,7 @@ std::vector<Turning> turnings_before(const ListedSeries& parent, const Part& gro
   std::vector<Turning> list;
   for (const Turning& turning : outside) list.push_back({turning.variable, R.transpose() * turning.w});
   for (int k = 0; k < group.column; ++k)
-    if (parent.series.turns(k))
-      list.push_back({parent.variable + k, R.transpose() * parent.work.w.col(k)});
+    if (parent.series.turns(k)) list.push_back({parent.variable + k, R.transpose() * parent.work.w.col(k)});
   return list;
 }
 
