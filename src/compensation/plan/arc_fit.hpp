@@ -72,7 +72,8 @@ double sweep_beside_turns(const Move& move, const Curve& source);
 bool can_be_one(const ArcTask& task, double u0, double u1);
 
 /// Whether a piece that is rewritten must not be one arc: a small shift of its end could turn a full
-/// circle into nothing, or an R near half a turn into none at all.
+/// circle into nothing, or an R near half a turn into none at all. Of 36 runs, 300 and 350 degrees for a full
+/// circle: 2 texts and 1, 14 lines more and 2 less; other shares of the chord and other angles for R: none.
 bool must_halve(const ArcTask& task, double u0, double u1);
 
 }  // namespace counterflex

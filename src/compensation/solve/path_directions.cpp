@@ -12,9 +12,11 @@
 namespace counterflex {
 namespace {
 
-constexpr double least_motion = 1e-9;     // m or rad: more than the rounding of inverse kinematics
-constexpr double longest_step = 50 * mm;  // of an arm: its axes turn back once along it
-constexpr double at_ends = 1e-3;          // of a step: a turning point nearer to an end is taken to be there
+constexpr double least_motion = 1e-9;  // m or rad: more than the rounding of inverse kinematics
+// Of an arm: its axes turn back once along it. An arm with reversals, three programs: 20 and 150 mm have the
+// same text.
+constexpr double longest_step = 50 * mm;
+constexpr double at_ends = 1e-3;  // of a step: a turning point nearer to an end is taken to be there
 constexpr double same_place = 10 * um;
 constexpr double turning_accuracy = 1e-7;   // of a step; the axis hardly moves beside a turning point
 constexpr std::size_t most_together = 256;  // places

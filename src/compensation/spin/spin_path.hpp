@@ -13,10 +13,12 @@ inline constexpr int spin_count = 37;  ///< from -90 to 90 degrees
 inline constexpr int spin_zero = 18;   ///< as programmed
 
 /// Feed path for one step of the grid, at least (m). A change of the turn counts as much as the same turn
-/// along this way.
+/// along this way. Of three programs for an arm, whose largest deviations are 2.3 to 2.7 mm: with 5 mm one is
+/// 2 µm lower, with 20 mm two are 2 and 4 µm higher.
 inline constexpr double between_stops = 10 * mm;
 
-/// A turn is taken only if it gains this share of the largest deviation.
+/// A turn is taken only if it gains this share of the largest deviation. Of the same programs, 0.003: 3 µm
+/// lower; 0.03: 16 to 25 µm higher.
 inline constexpr double least_spin_gain = 0.01;
 
 /// A place on the way to a stop.
