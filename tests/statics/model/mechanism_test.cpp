@@ -48,6 +48,23 @@ TEST_CASE("columns run from start to end: one a joint, six a spring or a group, 
   CHECK(driven.parts[1].theta_0 == unit(0));
 }
 
+TEST_CASE("mechanism: what it controls, and whether its actuators go straight where the tip does") {
+  const Mechanism mechanism = model_of_text(every_kind).mechanism;
+  for (const Component c : {Component::x, Component::z, Component::rz}) CHECK(controls(mechanism, c));
+  for (const Component c : {Component::y, Component::rx, Component::ry}) CHECK_FALSE(controls(mechanism, c));
+  const auto slides_with = [](const std::string& element) {
+    return only_slides(model_of_text("controlled = []\n[[chain]]\nname = \"c\"\nelements = [" + element +
+                                     "{ actuator = \"prismatic\", axis = \"x\" }]\n")
+                           .mechanism);
+  };
+  CHECK(slides_with(""));
+  CHECK(slides_with("{ compliance = \"revolute\", axis = \"z\", stiffness_Nm_per_rad = 9 }, "));
+  CHECK_FALSE(slides_with("{ actuator = \"revolute\", axis = \"z\" }, "));
+  CHECK_FALSE(slides_with("{ passive = \"prismatic\", axis = \"y\", stiffness_N_per_m = 9 }, "));
+  CHECK_FALSE(only_slides(mechanism));  // for its group
+  CHECK_FALSE(only_slides(model_of("orthoglide_perfect").mechanism));
+}
+
 TEST_CASE("actuators are numbered in the order of elements, a group's at the place of the group") {
   const Model model = model_of_text(every_kind);
   const Series& series = model.mechanism.chains.at(0);

@@ -219,6 +219,20 @@ TEST_CASE("a path stays where it was when a target is not reached, and continues
   CHECK(path.go_to(in_plane(0.2, 0.3)) == Status::converged);
 }
 
+TEST_CASE("the Jacobian of a path is that of its configuration, also where a target is not reached") {
+  const Model model = model_of_text(two_links);
+  NominalPath path(model, model.home);
+  const auto is_there = [&] {
+    const ActuatorJacobian there = actuator_jacobian(model, path.configuration());
+    return path.jacobian().J == there.J && path.jacobian().condition == there.condition;
+  };
+  CHECK(is_there());
+  REQUIRE(path.go_to(in_plane(0.3, 0.2)) == Status::converged);
+  CHECK(is_there());
+  REQUIRE(path.go_to(in_plane(0.9, 0)) != Status::converged);
+  CHECK(is_there());
+}
+
 TEST_CASE("a target at the edge of reach, where the arm is straight, is singular") {
   const Model model = model_of_text(two_links);
   const NominalResult edge = follow(model, model.home, in_plane(0.5 - 1e-14, 0));
