@@ -55,8 +55,9 @@ inline constexpr double rank_threshold = 1e-12;
 /// N/m or N m: smaller pivots of the kernel are those of struts that turn about themselves.
 inline constexpr double least_pivot = 1e-9;
 /// By which the second spring of a rigid closure is stiffer in tangents: without it some node has pivots of
-/// zero. Near the root of the rounding error: 1e-9 and 1e-7 fail tests of the kernel.
-inline constexpr double closure_surplus = 1e-8;
+/// zero. The root of the rounding error, 2^-52: a tangent loses as much to it as to the surplus. 1e-9 and
+/// 1e-7 fail tests of the kernel.
+inline constexpr double closure_surplus = 0x1p-26;
 /// N/m, of the springs that close series of nominal kinematics. Any stiffness does; its rounding errors are
 /// far below `least_pivot`.
 inline constexpr double kinematic_stiffness = 1e3;
