@@ -172,18 +172,17 @@ struct Single::Impl {
   bool contracts() {
     Work<double>& w = work();
     displace();
-    double first = 0, share = 1;
+    double last = std::numeric_limits<double>::infinity();
     for (int i = 0; i < 4; ++i) {
       evaluate(w);
       find_held_step(w);
       find_inner_steps(w);
       take_step<double>(true, w);
-      if (i == 0)
-        first = w.step.size;
-      else
-        share *= judging_contraction;
+      if (w.step.size <= step_tolerance) return true;
+      if (!(w.step.size < judging_contraction * last)) return false;
+      last = w.step.size;
     }
-    return w.step.size < share * first;
+    return true;
   }
 
   void note_first_step(SingleAnswer& answer) {

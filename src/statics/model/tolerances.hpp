@@ -84,9 +84,9 @@ inline constexpr double stiff_enough = 1e9;
 /// without the load, up to this factor. 0.2: pass; 0.8: batches leave too much to single solves, six tests
 /// fail.
 inline constexpr double least_stiffness = 0.5;
-/// Where tangents leave out how hanging weights turn, their pivots judge stability if three more steps leave
-/// less than the cube of the second number of a displacement (the first one, in units of l). 1e-7 and 1e-5:
-/// pass. 0.6: pass; 0.1: the proof of machines with masses fails.
+/// Where tangents leave out how hanging weights turn, their pivots judge stability if a displacement (in
+/// units of l) contracts to less than this share in each of four steps, or to the step tolerance. 1e-7 and
+/// 1e-5: pass. 0.6: pass; 0.1: the proof of machines with masses fails.
 inline constexpr double test_displacement = 1e-6, judging_contraction = 0.3;
 
 // Cells.
