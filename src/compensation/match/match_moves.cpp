@@ -18,9 +18,6 @@ namespace {
 
 constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
 constexpr double nearer_mm = 1e-9;
-// Of the rounding: an end that is as near as this is taken at once. Of 17 runs, two fail the verification
-// with 1, and one with 3.
-constexpr double digits_share = 1.5;
 
 // A feed block whose words act at its beginning is itself the first piece: the others follow it.
 bool acts_first(const Move& original, const std::string& words) {
@@ -100,7 +97,8 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     if ((!turns_rigidly || found->move->arc) && may_end(original, words_, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
-      if (!turns_rigidly && off <= digits_share * rounding_mm && surplus <= slack_mm) return j + 1;
+      // This end is rounded, and the one before, whose shift is expected here: no other end is as near.
+      if (!turns_rigidly && off <= 2 * rounding_mm && surplus <= slack_mm) return j + 1;
       // The end of a contour's piece is known up to its turn, its angle to the last digits.
       const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;

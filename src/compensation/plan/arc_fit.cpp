@@ -12,8 +12,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double fit_angle = angle_between_places / 2;  // samples are at most so far apart, on all turns
-constexpr double flat_fit_angle = fit_angle / 4;        // the height that is missed bends as the arc does
 constexpr int fit_iterations = 4;
 constexpr double fit_step_mm = 1e-4;       // of numerical derivatives
 constexpr double most_sweep_change = 0.1;  // rad
@@ -38,8 +36,7 @@ double fraction_at(const ArcTask& task, double u, const Vector3& written) {
 std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
   std::vector<Sample> all;
   const double span = u1 - u0;
-  const double angle = task.move.arc->flat ? flat_fit_angle : fit_angle;
-  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / angle)),
+  const int by_angle = static_cast<int>(std::ceil(span * task.source.arc->sweep / angle_between_places)),
             count = std::max(samples_of_piece, by_angle);
   // The height of a flat arc may be off from its start on.
   for (int k = task.move.arc->flat ? 0 : 1; k <= count; ++k) {
@@ -114,7 +111,7 @@ class PieceFit {
 
   FittedArc run() const {
     FittedArc best = written(kept_);
-    if (best.sound && best.miss_mm <= centre_kept_share * task_.tolerance_mm) return best;
+    if (best.sound && best.miss_mm <= task_.tolerance_mm) return best;
     const Vector3 fitted = fitted_centre(best.read.arc ? best.read.end : end_);
     take_better(written(fitted), best);
     if (task_.move.arc->through && best.read.arc) take_better(written(tilted(best)), best);

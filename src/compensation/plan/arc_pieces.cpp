@@ -5,21 +5,18 @@
 #include <numbers>
 
 #include "compensation/tuning.hpp"
+#include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr int most_halvings = 2 * first_halvings;
-// Corners nearer to the ends of a piece do not divide it. Of 17 runs over 10165 lines: 0 has 13 lines more,
-// half 11 more, twice 2 less.
-constexpr double sliver_share = 0.05;  // of a piece, and where it might be one
-constexpr double sliver_mm = 0.1;      // at most
 
 // Divides from the start on; what follows a piece begins where the text holds the tool behind it.
 class ArcDivider {
  public:
-  ArcDivider(const ArcTask& task, const TextPosition& from)
-      : task_(task), length_mm_(length(task.source)), held_(from) {}
+  ArcDivider(const ArcTask& task, const TextPosition& from) : task_(task), held_(from) {}
 
   ArcPieces run(double u0, double u1) {
     divide(u0, u1, 0);
@@ -110,21 +107,21 @@ class ArcDivider {
     return (u1 - u0) / 2 * arc.sweep > 2 * chord;
   }
 
-  // At the corner that is nearest the middle, else there. Full turns are left to the last piece. An arc of
-  // more than half a turn is two.
+  // At the corner that is nearest the middle, else there. Corners that words may round to an end do not
+  // count. Full turns are left to the last piece. What cannot be one arc is two, and of the same length.
   Division division_of(double u0, double u1) const {
     const double sweep = task_.source.arc->sweep;
     if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
       return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
-    const bool divided_anyway = !can_be_one(task_, u0, u1) || must_halve(task_, u0, u1);
-    const double middle = (u0 + u1) / 2, share = sliver_share * (u1 - u0),
-                 margin = divided_anyway ? share : std::min(share, sliver_mm / length_mm_);
+    const double middle = (u0 + u1) / 2;
+    const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
+    if (!can_be_one(task_, u0, u1) || must_halve(task_, u0, u1)) return {middle, half_turn_at_most};
+    const double margin = 2 * rounding_allowance(task_.move, task_.options) / mm / length(task_.source);
     std::optional<double> best;
     for (const double corner : task_.corners) {
       if (corner < u0 + margin || corner > u1 - margin) continue;
       if (!best || std::abs(corner - middle) < std::abs(*best - middle)) best = corner;
     }
-    const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
     return {best.value_or(middle), !best && half_turn_at_most};
   }
 
@@ -189,7 +186,6 @@ class ArcDivider {
   }
 
   const ArcTask& task_;
-  double length_mm_;
   TextPosition held_;
   std::optional<Chords> chords_;  // not yet put: the piece behind them may be left to chords, too
   ArcPieces result_;

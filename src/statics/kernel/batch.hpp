@@ -15,8 +15,8 @@ struct OffsetBounds {
   std::array<std::array<double, 3>, 2> first{};
   std::array<std::array<std::array<double, 3>, 3>, 2> second{};
   std::array<double, 2> remainder{};
-  double reach = 0;  ///< from the centre along each axis (m): the remainder is measured up to there
-  double load = 0;   ///< N: and with loads of this size in all components
+  double half_edge = 0;  ///< of the cell (m): the remainder is measured at its corners
+  double load = 0;       ///< N: and with loads of this size in all components
 };
 
 /// The solutions of a question about a place: the state at the centre without a load, and how it changes with

@@ -232,7 +232,7 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
     return {infinity, infinity};
   const Vector3 centre(cell->centre[0], cell->centre[1], cell->centre[2]);
   for (const Vector3& p : {line.p0, line.p1})
-    if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.reach)) return {infinity, infinity};
+    if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.half_edge)) return {infinity, infinity};
   const double length = impl_->table.flat.machine.length;
   const auto size = [length](const Vector6& F) {
     return std::sqrt(F.head<3>().squaredNorm() + F.tail<3>().squaredNorm() / (length * length));

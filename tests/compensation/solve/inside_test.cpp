@@ -135,7 +135,7 @@ TEST_CASE(
     "a short line is judged by its ends where its cell bounds the rest, and inside where they leave too "
     "little") {
   const Shop shop({.machine = load_machine(orthoglide_b),
-                   .text = blocks(40, 0.5),
+                   .text = blocks(40, 0.1),
                    .force = constant_force(milling(), 0)});
   const auto miss_of_ends = [&](double miss) {
     std::vector<Piece> pieces = right_at_ends(shop);

@@ -90,7 +90,7 @@ TEST_CASE("batches: a short line of a cut needs no solution inside") {
   CHECK(bend.gain < 1.2);
 }
 
-TEST_CASE("batches: nothing is promised of a line that leaves the reach of a cell, or has none") {
+TEST_CASE("batches: nothing is promised of a line that leaves a cell, or has none") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   const Vector3 p = bench.home().p, far(0.9, 0, 0);
   const auto bend = [&](const Vector3& a, const Vector3& b) {

@@ -22,12 +22,12 @@ double unit_of(int variable, const Variables& variables, double length) {
 
 /// Bounds of the second derivatives of one component in a cell: the centre's, and by how much third
 /// derivatives change them.
-Eigen::MatrixXd second_derivatives(const StartCell& cell, int row, double reach, double largest_load,
+Eigen::MatrixXd second_derivatives(const StartCell& cell, int row, double half_edge, double largest_load,
                                    double length) {
   const Variables& variables = cell.variables;
   const int n = variables.count();
   const auto extent = [&](int k) {
-    return group_of(k, variables) == position ? reach
+    return group_of(k, variables) == position ? half_edge
            : group_of(k, variables) == turn   ? 0
                                               : largest_load / unit_of(k, variables, length);
   };
@@ -53,13 +53,13 @@ Eigen::MatrixXd second_derivatives(const StartCell& cell, int row, double reach,
 
 }  // namespace
 
-OffsetBounds offset_bounds(const StartCell& cell, double reach, double load, double length) {
+OffsetBounds offset_bounds(const StartCell& cell, double half_edge, double load, double length) {
   const Variables& variables = cell.variables;
   const int n = variables.count();
   OffsetBounds bounds;
-  bounds.reach = reach, bounds.load = load;
+  bounds.half_edge = half_edge, bounds.load = load;
   for (int row = 0; row < 6; ++row) {
-    const Eigen::MatrixXd D = second_derivatives(cell, row, reach, load, length);
+    const Eigen::MatrixXd D = second_derivatives(cell, row, half_edge, load, length);
     auto& first = at(bounds.first, row / 3);
     auto& second = at(bounds.second, row / 3);
     for (int i = 0; i < n; ++i) {
@@ -88,16 +88,16 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   const auto first = [&](int r, int v) {
     const auto& second = at(at(bounds.second, r), v);
     return at(at(bounds.first, r), v) +
-           excess * (std::sqrt(3.0) * bounds.reach * second[position] + line.load * second[load]);
+           excess * (std::sqrt(3.0) * bounds.half_edge * second[position] + line.load * second[load]);
   };
   const double turn_follows = 1 - first(1, turn);
   if (!(turn_follows > 0)) return {infinity, infinity};
   const std::array<double, 3> step{
       line.way, (first(1, position) * line.way + first(1, load) * line.load_change) / turn_follows,
       line.load_change};
-  // A polynomial of fourth order that is at most 1 over a reach bends by at most 80 (Markov); it is never
+  // A polynomial of fourth order that is at most 1 over a half edge bends by at most 80 (Markov); it is never
   // further than 2 off its chord.
-  const double share = line.way / bounds.reach + (line.load_change + line.kink) / bounds.load;
+  const double share = line.way / bounds.half_edge + (line.load_change + line.kink) / bounds.load;
   const double missed = std::pow(excess, 3) * std::min(2.0, 10 * share * share);
   std::array<double, 2> off{};
   for (int r = 0; r < 2; ++r) {

@@ -6,11 +6,10 @@ namespace counterflex::kernel {
 
 /// Loads are measured with moments over the machine's length l, so that all six components are in N.
 
-/// The bounds of a target's cell, without a remainder. `reach` (m): from the centre along each axis; `load`
-/// (N).
-OffsetBounds offset_bounds(const StartCell& cell, double reach, double load, double length);
+/// The bounds of a target's cell, without a remainder. `half_edge` in m, `load` in N.
+OffsetBounds offset_bounds(const StartCell& cell, double half_edge, double load, double length);
 
-/// A line in the reach of a cell.
+/// A line in a cell.
 struct LineSizes {
   double way = 0;          ///< between its ends (m)
   double load_change = 0;  ///< between its ends (N)

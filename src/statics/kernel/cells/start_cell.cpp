@@ -48,7 +48,7 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
   return samples;
 }
 
-/// Corners of the reach of a cell, each with another load of one size: along one component, or in all of
+/// Corners of a cell, each with another load of one size: along one component, or in all of
 /// them. Then the same corners without a load.
 std::vector<Sample> corners_about(const CellPlace& place, double length) {
   std::vector<Sample> corners;
@@ -58,8 +58,7 @@ std::vector<Sample> corners_about(const CellPlace& place, double length) {
     if (k < 6) F = Vector6::Unit(k);
     F.head<3>() = F.head<3>().cwiseProduct(signs);
     F.tail<3>() *= k % 2 == 0 ? length : -length;
-    corners.push_back(
-        {place.centre + reach_of_lines * place.step * signs, Vector3::Zero(), load_of_cells * F});
+    corners.push_back({place.centre + place.step * signs, Vector3::Zero(), load_of_cells * F});
   }
   for (int k = 0; k < 8; ++k) corners.push_back({at(corners, k).p});
   return corners;
@@ -330,7 +329,7 @@ StartCell cell_of(const FlatMachine& machine, const CellPlace& place, const Vari
 void measure_at_corners(const Problem& target, const CellPlace& place, const StartCell& kinematics,
                         StartCell& cell) {
   const FlatMachine& machine = target.machine();
-  cell.bounds = offset_bounds(cell, reach_of_lines * place.step, load_of_cells, machine.length);
+  cell.bounds = offset_bounds(cell, place.step, load_of_cells, machine.length);
   const std::vector<Sample> corners = corners_about(place, machine.length);
   const auto solved = solve_samples(target, place, corners, {nullptr, nullptr, &cell, &kinematics}, {});
   if (!solved) {
