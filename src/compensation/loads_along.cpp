@@ -131,6 +131,20 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
   return along;
 }
 
+std::vector<NominalResult> solve_nominal(const std::vector<LoadPlace>& places, int threads,
+                                         const StartTables* starts) {
+  std::vector<NominalResult> all(places.size());
+  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
+    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
+    PlaceSolver solver(starts, places[begin].load.at_platform);
+    std::vector<TipPosition> at;
+    for (const LoadPlace& place : std::span(places).subspan(begin, count))
+      at.push_back({place.model, place.target, commanded_orientation(place.at)});
+    std::ranges::move(solver.nominals(at), all.begin() + static_cast<std::ptrdiff_t>(begin));
+  });
+  return all;
+}
+
 std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts) {
   PlaceSolver solver(starts, place.load.at_platform);
   std::array<TipPosition, 1> position{wanted_at(*place.model, place.at)};

@@ -88,6 +88,10 @@ struct LoadsAlong {
 LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
                        const StartTables* starts = nullptr);
 
+/// The nominal machine at the commanded target of each place. `starts`, `threads`: as for `solve_loads`.
+std::vector<NominalResult> solve_nominal(const std::vector<LoadPlace>& places, int threads,
+                                         const StartTables* starts = nullptr);
+
 /// The causes of the deviation before at a place. Nothing where they cannot be solved.
 std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts = nullptr);
 

@@ -32,9 +32,10 @@ struct MachineAlong {
   std::optional<double> least_arm_margin;  ///< rad: a run is refused below it; none: no limit
 };
 
-/// The machine at `places`. Joint values are followed from place to place, so that they count on over full
-/// turns. A place that is not reached so is followed from home. `model`: of `machine` without a tool.
-MachineAlong machine_along(const Machine& machine, const Model& model, const std::vector<LoadPlace>& places);
+/// The machine at `places`. Joint values are those nearest to the ones before, so that they count on over
+/// full turns. `model`: of `machine` without a tool. `starts`, `threads`: as for `solve_loads`.
+MachineAlong machine_along(const Machine& machine, const Model& model, const std::vector<LoadPlace>& places,
+                           int threads, const StartTables* starts = nullptr);
 
 /// For a page. n: number of places; arrays as in `curves_json`, NaN where a place is not known:
 ///

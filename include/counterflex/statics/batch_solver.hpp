@@ -7,6 +7,7 @@
 
 #include "counterflex/statics/directions.hpp"
 #include "counterflex/statics/equilibrium.hpp"
+#include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
 
@@ -48,12 +49,6 @@ struct BatchAnswer {
 struct NominalAnswer {
   bool solved = false;
   Pose X_MT;
-};
-
-/// The actuator values of the nominal tip at a position (m, rad; rotary ones but for full turns).
-struct ActuatorsAnswer {
-  bool solved = false;
-  Eigen::VectorXd rho;
 };
 
 /// A short straight way, and the load along it: between `F0` and `F1` it changes evenly, but for the
@@ -120,8 +115,9 @@ class BatchSolver {
   /// `answers` is as long as `places`.
   void nominal_tips(std::span<const TurnedPlace> places, std::span<NominalAnswer> answers);
 
-  /// The same for the actuators there.
-  void nominal_actuators(std::span<const TurnedPlace> places, std::span<ActuatorsAnswer> answers);
+  /// The same for the nominal configurations there, whose rotary actuators are known but for full turns. What
+  /// is not solved is not `converged`.
+  void nominals(std::span<const TurnedPlace> places, std::span<NominalResult> answers);
 
   /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured
   /// remainder. EQUATIONS.md, section 11.

@@ -69,8 +69,6 @@ class NominalPath {
   NominalPath& operator=(NominalPath&&) noexcept;
   Status go_to(const Pose& X_MT);
   const Configuration& configuration() const { return configuration_; }
-  /// As `actuator_jacobian` at the configuration.
-  const ActuatorJacobian& jacobian() const;
 
  private:
   struct Impl;
@@ -127,7 +125,6 @@ class NominalToolPath {
   Status go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT = {});
 
   const Configuration& configuration() const { return path_->configuration(); }
-  const ActuatorJacobian& jacobian() const { return path_->jacobian(); }
   NominalPlace place() const { return {model_, configuration()}; }
 
   /// Orientation of the tip at the current configuration, in M.

@@ -367,6 +367,9 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   if (report.failure && options.command != Command::verify && (options.report || options.json))
     report.failure_place = solve_failed_line(run, report.failure->line);
   if (!run.uncertainties.empty()) add_uncertainty(options, run, report, places);
+  std::string machine = "null";
+  if (files.with_page())
+    machine = machine_json(machine_along(on.machine, on.model, places, run.options.threads, &*run.starts));
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);
@@ -374,8 +377,6 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   report.exit_status = exit_number(report.error_kind);
   add_hashes(options, report, files);
   std::string json = to_json(report);
-  const std::string machine =
-      files.with_page() ? machine_json(machine_along(on.machine, on.model, places)) : "null";
   if (tally.curves()) files.add_report(report, json, *tally.curves(), machine, run.file.by_line());
   run.file.bytes.refuse_change();  // the file was read more than once
   files.publish(!report.error_kind);

@@ -86,10 +86,10 @@ class Follower {
       const std::size_t count = std::min(most_together, places.size() - first);
       std::vector<TipPosition> positions;
       for (std::size_t i = 0; i < count; ++i) positions.push_back(places[first + i].at);
-      const std::vector<Eigen::VectorXd> rho = solver_.actuators(positions);
+      const std::vector<NominalResult> nominals = solver_.nominals(positions);
       for (std::size_t i = 0; i < count; ++i) {
-        if (rho[i].size() == 0) return std::move(path_);
-        go_to(places[first + i], rho[i]);
+        if (nominals[i].status != Status::converged) return std::move(path_);
+        go_to(places[first + i], actuator_values(positions[i].model->mechanism, nominals[i].configuration));
       }
     }
     return std::move(path_);
@@ -156,8 +156,9 @@ class Follower {
     const double golden = (std::sqrt(5.0) - 1) / 2, accuracy = turning_accuracy * (u1 - u0);
     const auto value = [&](double u) {
       const TipPosition at = place_on(model_of(job_, segment), segment, u).at;
-      const Eigen::VectorXd rho = solver_.actuators({&at, 1}).front();
-      if (rho.size() == 0) return HUGE_VAL;
+      const NominalResult nominal = std::move(solver_.nominals({&at, 1}).front());
+      if (nominal.status != Status::converged) return HUGE_VAL;
+      const Eigen::VectorXd rho = actuator_values(at.model->mechanism, nominal.configuration);
       const Eigen::VectorXd near = rho + full_turns(at.model->mechanism, rho, end_.rho);
       return sign * near[static_cast<Eigen::Index>(actuator)];
     };

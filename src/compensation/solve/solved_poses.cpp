@@ -57,9 +57,11 @@ class SliceOfPoses {
       if (solved[i].status != Status::converged) continue;
       TipPosition target{&model_, answers[i].target};
       if (asked[i].R_MT) target.R_MT = Matrix3(exp_so3(answers[i].turn) * *asked[i].R_MT);
-      solved[i].status = nominal_pose(target, solved[i].X_MT);
-      solved[i].rho = std::move(solver_.actuators({&target, 1}).front());
-      if (solved[i].rho.size() == 0) solved[i].status = Status::unreachable;
+      const NominalResult nominal = std::move(solver_.nominals({&target, 1}).front());
+      solved[i].status = nominal.status;
+      if (nominal.status != Status::converged) continue;
+      solved[i].X_MT = tip(model_.mechanism, nominal.configuration);
+      solved[i].rho = actuator_values(model_.mechanism, nominal.configuration);
     }
   }
 

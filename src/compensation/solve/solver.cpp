@@ -211,9 +211,13 @@ void PlaceSolver::machine_forwards(std::span<const ForwardRequest> requests, std
 
 Equilibrium PlaceSolver::equilibrium(const ForwardRequest& request, const ForwardAnswer& answer) {
   const Model& model = *request.model;
-  Eigen::VectorXd joints = request.rho != nullptr ? *request.rho : answer.rho;
-  if (has_reversals(model)) joints += lag_of(model.mechanism, request.directions);
-  const NominalResult commanded = nominal({request.model, request.target, request.R}, joints);
+  const TipPosition at{request.model, request.target, request.R};
+  NominalResult commanded = std::move(nominals({&at, 1}).front());
+  if (commanded.status == Status::converged && has_reversals(model)) {
+    const Eigen::VectorXd rho = actuator_values(model.mechanism, commanded.configuration);
+    commanded =
+        nominal_forward(model, commanded.configuration, rho + lag_of(model.mechanism, request.directions));
+  }
   if (commanded.status != Status::converged) return {};
   const Load load{request.F, at_platform_};
   StaticsWork& work = of(model).scratch();
@@ -223,25 +227,18 @@ Equilibrium PlaceSolver::equilibrium(const ForwardRequest& request, const Forwar
   return found;
 }
 
-std::vector<Eigen::VectorXd> PlaceSolver::actuators(std::span<const TipPosition> positions) {
-  std::vector<Eigen::VectorXd> all;
-  for (std::size_t count = 0; !positions.empty(); positions = positions.subspan(count)) {
-    count = length_of_run(positions);
-    OfModel& m = of(*positions.front().model);
-    actuators_.assign(count, {});
+std::vector<NominalResult> PlaceSolver::nominals(std::span<const TipPosition> positions) {
+  std::vector<NominalResult> all(positions.size());
+  for (std::size_t begin = 0, count = 0; begin < positions.size(); begin += count) {
+    const std::span<const TipPosition> run = positions.subspan(begin);
+    count = length_of_run(run);
+    OfModel& m = of(*run.front().model);
     places_.clear();
-    for (const TipPosition& at : positions.first(count)) places_.push_back(m.place(at.p_MT, at.R_MT));
-    if (m.batch) m.batch->nominal_actuators(places_, actuators_);
-    for (std::size_t i = 0; i < count; ++i) {
-      if (!actuators_[i].solved) {
-        const NominalResult alone = nominal(m, positions[i]);
-        if (alone.status == Status::converged)
-          actuators_[i].rho = actuator_values(m.model.mechanism, alone.configuration);
-        else
-          actuators_[i].rho.resize(0);
-      }
-      all.push_back(std::move(actuators_[i].rho));
-    }
+    for (const TipPosition& at : run.first(count)) places_.push_back(m.place(at.p_MT, at.R_MT));
+    const std::span<NominalResult> answers = std::span(all).subspan(begin, count);
+    if (m.batch) m.batch->nominals(places_, answers);
+    for (std::size_t i = 0; i < count; ++i)
+      if (answers[i].status != Status::converged) answers[i] = nominal(m, run[i]);
   }
   return all;
 }
@@ -252,10 +249,6 @@ NominalResult PlaceSolver::nominal(const TipPosition& at) {
 
 NominalResult PlaceSolver::nominal(OfModel& m, const TipPosition& at) {
   return follow(m.model, nominal_near(m, at), m.pose(at.p_MT, at.R_MT));
-}
-
-NominalResult PlaceSolver::nominal(const TipPosition& at, const Eigen::VectorXd& rho) {
-  return nominal_forward(*at.model, nominal_near(of(*at.model), at), rho);
 }
 
 const Configuration& PlaceSolver::nominal_near(OfModel& m, const TipPosition& at) {

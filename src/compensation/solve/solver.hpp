@@ -89,16 +89,13 @@ class PlaceSolver {
   /// orientation: not converged where it is not found.
   Equilibrium equilibrium(const ForwardRequest& request, const ForwardAnswer& answer);
 
-  /// The actuators of the nominal machine at positions (m, rad); rotary ones but for full turns. Empty where
-  /// it does not reach one.
-  std::vector<Eigen::VectorXd> actuators(std::span<const TipPosition> positions);
-
-  /// The nominal configuration with the tip at a position. Its controlled orientation is the program's or
-  /// else home's.
+  /// The nominal configuration with the tip at a position, followed to there: a singular pose on the way is
+  /// found. Its controlled orientation is the program's or else home's.
   NominalResult nominal(const TipPosition& at);
 
-  /// The same where its actuators `rho` (m, rad) are known: much faster.
-  NominalResult nominal(const TipPosition& at, const Eigen::VectorXd& rho);
+  /// The same of many positions, in batches; without a judgement of ways, and rotary actuators but for full
+  /// turns.
+  std::vector<NominalResult> nominals(std::span<const TipPosition> positions);
 
   /// Whether the nominal machine goes from one position straight to another, of the same model, on one
   /// branch: converged, or why not.
@@ -130,7 +127,6 @@ class PlaceSolver {
   std::vector<BatchAnswer> answers_;
   std::vector<TurnedPlace> places_;
   std::vector<NominalAnswer> nominals_;
-  std::vector<ActuatorsAnswer> actuators_;
 };
 
 }  // namespace counterflex

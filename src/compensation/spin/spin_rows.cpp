@@ -58,10 +58,22 @@ class RowSolver {
     }
     answers_.assign(rows.size(), {});
     solver_.forwards(forwards_, answers_, StopAt::end);
+    std::vector<std::size_t> reached;  // of the answers
+    places_.clear();
+    for (std::size_t k = 0; k < rows.size(); ++k) {
+      if (answers_[k].status != Status::converged || !count_on(rows[k], turn, last, answers_[k].rho))
+        continue;
+      reached.push_back(k);
+      places_.push_back({forwards_[k].model, forwards_[k].target, forwards_[k].R});
+    }
+    const std::vector<NominalResult> nominals = solver_.nominals(places_);
     std::vector<std::size_t> alive;
-    for (std::size_t k = 0; k < rows.size(); ++k)
-      if (answers_[k].status == Status::converged && take(rows[k], turn, last, answers_[k]))
-        alive.push_back(rows[k]);
+    for (std::size_t n = 0; n < reached.size(); ++n) {
+      if (nominals[n].status != Status::converged) continue;
+      const std::size_t i = rows[reached[n]];
+      take(i, turn, answers_[reached[n]], nominals[n].configuration);
+      alive.push_back(i);
+    }
     return alive;
   }
 
@@ -69,23 +81,21 @@ class RowSolver {
     return request.wanted.R * exp_so3((turn - spin_zero) * spin_step * Vector3::UnitZ());
   }
 
-  bool take(std::size_t i, int turn, int last, const ForwardAnswer& answer) {
+  // Counts the actuators on from the turn `last`; false if that is too far.
+  bool count_on(std::size_t i, int turn, int last, Eigen::VectorXd& rho) const {
+    if (turn == last) return true;
+    const Eigen::VectorXd& near = rows_[i].rho[static_cast<std::size_t>(last)];
+    rho += full_turns(requests_[i].model->mechanism, rho, near);
+    return (rho - near).cwiseAbs().maxCoeff() <= largest_step;
+  }
+
+  void take(std::size_t i, int turn, ForwardAnswer& answer, const Configuration& nominal) {
     const SpinRequest& request = requests_[i];
     SpinRow& row = rows_[i];
     const auto at = static_cast<std::size_t>(turn);
-    Eigen::VectorXd rho = answer.rho;
-    if (turn != last) {
-      const Eigen::VectorXd& near = row.rho[static_cast<std::size_t>(last)];
-      rho += full_turns(request.model->mechanism, rho, near);
-      if ((rho - near).cwiseAbs().maxCoeff() > largest_step) return false;
-    }
-    const NominalResult nominal =
-        solver_.nominal({request.model, request.command, turned(request, turn)}, answer.rho);
-    if (nominal.status != Status::converged) return false;
-    row.margin[at] = static_cast<float>(margin_of(*request.model, nominal.configuration));
+    row.margin[at] = static_cast<float>(margin_of(*request.model, nominal));
     row.deviation[at] = static_cast<float>((answer.X_MT.p - request.wanted.p).norm());
-    row.rho[at] = std::move(rho);
-    return true;
+    row.rho[at] = std::move(answer.rho);
   }
 
   PlaceSolver solver_;
@@ -93,6 +103,7 @@ class RowSolver {
   std::span<SpinRow> rows_;
   std::vector<ForwardRequest> forwards_;
   std::vector<ForwardAnswer> answers_;
+  std::vector<TipPosition> places_;
 };
 
 }  // namespace

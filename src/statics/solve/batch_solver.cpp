@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/cells/offset_bounds.hpp"
+#include "statics/kernel/machine/states.hpp"
 #include "statics/solve/start_table.hpp"
 
 namespace counterflex {
@@ -33,6 +34,7 @@ struct KernelBatch {
   std::vector<unsigned char> accepted, is_stiff;
   std::vector<int> iterations;
   std::vector<double> rho, tips, nominal_tips;
+  std::vector<double> states;  ///< of the nominal machine, where it is alone
 
   void clear() {
     p.clear(), R.clear(), F.clear(), lag.clear(), held.clear();
@@ -59,7 +61,10 @@ struct KernelBatch {
     else
       batch.rho = held.data();
     batch.accepted = accepted.data(), batch.iterations = iterations.data();
-    if (problem.real) {
+    if (!problem.real) {
+      states.resize(static_cast<std::size_t>(problem.machine().state_size()) * count);
+      batch.state = states.data();
+    } else {
       batch.F = F.data(), batch.cells = cells.data();
       batch.lag = lag.empty() ? nullptr : lag.data();
       batch.tip = tips.data(), batch.is_stiff = is_stiff.data();
@@ -244,13 +249,13 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
   return {bounds.command, bounds.gain};
 }
 
-void BatchSolver::nominal_actuators(std::span<const TurnedPlace> places, std::span<ActuatorsAnswer> answers) {
+void BatchSolver::nominals(std::span<const TurnedPlace> places, std::span<NominalResult> answers) {
   KernelBatch& batch = impl_->batch;
   batch.clear();
   std::vector<std::shared_ptr<const KinematicsCell>> cells;
   std::vector<std::size_t> asked;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    answers[i] = {};
+    answers[i].status = Status::not_converged;
     const auto cell = impl_->kinematics_at(places[i]);
     if (!cell) continue;
     asked.push_back(i);
@@ -258,8 +263,12 @@ void BatchSolver::nominal_actuators(std::span<const TurnedPlace> places, std::sp
     cells.push_back(cell);
   }
   impl_->solve_kinematics();
+  const StartTable::Impl& table = impl_->table;
+  const auto size = static_cast<std::size_t>(table.rigid.machine.state_size());
   for (std::size_t k = 0; k < asked.size(); ++k)
-    answers[asked[k]] = {batch.accepted[k] != 0, batch.rho_of(k)};
+    if (batch.accepted[k] != 0)
+      answers[asked[k]] = {Status::converged, nominal_of(table.model.mechanism, table.rigid,
+                                                         &batch.states[size * k], cells[k]->nominal)};
 }
 
 const Configuration* BatchSolver::nominal_near(const TurnedPlace& place) {

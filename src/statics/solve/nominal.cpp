@@ -134,15 +134,11 @@ struct NominalPath::Impl {
     return moving.solve(&X_MT, configuration) < closure_tolerance * 10;
   }
 
-  const ActuatorJacobian& jacobian_at(const Configuration& configuration) {
-    if (!jacobian) jacobian = jacobian_of(model.mechanism, held, configuration);
-    return *jacobian;
-  }
-
   // Solves for the next target on the way; false where it is not reached or a branch jump shows.
   bool advances(const Pose& now, const Pose& goal, Configuration& configuration) {
     const Mechanism& mechanism = model.mechanism;
-    const ActuatorJacobian& here = jacobian_at(configuration);
+    if (!jacobian) jacobian = jacobian_of(mechanism, held, configuration);
+    const ActuatorJacobian& here = *jacobian;
     Configuration next = configuration;
     if (!reaches(goal, next)) return false;
     const Eigen::VectorXd drho = actuator_values(mechanism, next) - actuator_values(mechanism, configuration);
@@ -180,10 +176,6 @@ Status NominalPath::go_to(const Pose& X_MT) {
   const bool judged = !mechanism.controlled.empty() && !mechanism.travel.empty();
   return judged && impl_->jacobian->condition > largest_jacobian_condition ? Status::singular
                                                                            : Status::converged;
-}
-
-const ActuatorJacobian& NominalPath::jacobian() const {
-  return impl_->jacobian_at(configuration_);
 }
 
 NominalResult follow(const Model& model, const Configuration& from, const Pose& X_MT) {

@@ -49,7 +49,7 @@ struct MachineAndPlaces {
     }
   }
 
-  MachineAlong along() const { return machine_along(machine, model, places); }
+  MachineAlong along() const { return machine_along(machine, model, places, 1); }
   nlohmann::json json() const { return nlohmann::json::parse(machine_json(along())); }
 };
 

@@ -1,6 +1,7 @@
 /// Batches against the solver of single waypoints.
 #include "counterflex/geometry/pose.hpp"
 #include "statics/support/batch_support.hpp"
+#include "statics/support/laws_states.hpp"
 
 using namespace counterflex;
 using namespace counterflex::laws;
@@ -186,7 +187,7 @@ TEST_CASE("batches: a command for a whole pose is that of the solver of single w
   CHECK(solved >= 20);  // of 24
 }
 
-TEST_CASE("batches: nominal tips are those of followed kinematics") {
+TEST_CASE("batches: nominal tips and configurations are those of followed kinematics") {
   for (const BatchTrial& batch_trial : batch_trials()) {
     CAPTURE(batch_trial.trial.name);
     BatchBench bench(batch_trial.machine, batch_trial.at_platform);
@@ -199,6 +200,10 @@ TEST_CASE("batches: nominal tips are those of followed kinematics") {
       REQUIRE(nominal.status == Status::converged);
       CHECK(deviation(answer.X_MT, tip(bench.model.mechanism, nominal.configuration)).norm() <=
             answer_tolerance);
+      NominalResult of_kernel;
+      bench.solver.nominals({&request.at, 1}, {&of_kernel, 1});
+      REQUIRE(of_kernel.status == Status::converged);
+      CHECK(largest_difference(of_kernel.configuration, nominal.configuration) < 1e-9);
     }
   }
 }
@@ -211,6 +216,9 @@ TEST_CASE("batches: a machine that does not control x, y and z is not solved") {
     const BatchRequest at_home{{bench.home().p}, Vector6::Zero()};
     CHECK(!bench.solve(BatchQuestion::forward, whole, {at_home})[0].solved);
     CHECK(bench.solver.nominal_near(at_home.at) == nullptr);
+    NominalResult none{Status::converged, {}};
+    bench.solver.nominals({&at_home.at, 1}, {&none, 1});
+    CHECK(none.status != Status::converged);
   }
 }
 

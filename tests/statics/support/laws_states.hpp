@@ -1,5 +1,5 @@
 #pragma once
-/// States far from equilibrium, for laws that hold anywhere.
+/// States far from equilibrium, for laws that hold anywhere; and how far two states are apart.
 #include "statics/support/laws_support.hpp"
 
 namespace counterflex::laws {
@@ -32,6 +32,24 @@ inline Configuration shaken(const Mechanism& mechanism, Configuration configurat
     configuration.chains[i] = shaken(mechanism.chains[i], configuration.chains[i], random, size, wrench);
   configuration.X_MP = moved(configuration.X_MP, random.six(0.1 * size, 0.3 * size));
   return configuration;
+}
+
+/// Of all coordinates (m, rad), in all branches.
+inline double largest_difference(const SeriesState& a, const SeriesState& b) {
+  double largest = (a.x - b.x).cwiseAbs().maxCoeff();
+  for (std::size_t g = 0; g < a.groups.size(); ++g) {
+    largest = std::max(largest, difference(a.groups[g].X, b.groups[g].X).norm());
+    for (std::size_t i = 0; i < a.groups[g].branches.size(); ++i)
+      largest = std::max(largest, largest_difference(a.groups[g].branches[i], b.groups[g].branches[i]));
+  }
+  return largest;
+}
+
+inline double largest_difference(const Configuration& a, const Configuration& b) {
+  double largest = difference(a.X_MP, b.X_MP).norm();
+  for (std::size_t i = 0; i < a.chains.size(); ++i)
+    largest = std::max(largest, largest_difference(a.chains[i], b.chains[i]));
+  return largest;
 }
 
 }  // namespace counterflex::laws

@@ -5,12 +5,15 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/equations/work.hpp"
+#include "statics/model/home.hpp"
 #include "statics/model/part.hpp"
 
 namespace counterflex::kernel {
 namespace {
 
 using ModelSeries = counterflex::Series;
+
+constexpr Stage unloaded{.errors = 0, .load = 0, .preload = 0, .gravity = 0};
 
 /// The states of a series and of the branches inside it, by their number in the flat machine.
 template <class State>
@@ -184,9 +187,19 @@ void write_state(const Mechanism& mechanism, const Flat& flat, const StateNumber
 std::vector<double> state_of(const Mechanism& mechanism, const Flat& flat, const Configuration& configuration,
                              double errors) {
   StateNumbers numbers;
-  read_state(mechanism, flat, configuration, {.errors = errors, .load = 0, .preload = 0, .gravity = 0},
-             numbers);
+  Stage stage = unloaded;
+  stage.errors = errors;
+  read_state(mechanism, flat, configuration, stage, numbers);
   return numbers.state;
+}
+
+Configuration nominal_of(const Mechanism& mechanism, const Flat& rigid, const double* state,
+                         Configuration like) {
+  const StateNumbers numbers{.state = {state, state + rigid.machine.state_size()},
+                             .ends = std::vector<double>(6 * rigid.machine.series.size())};
+  write_state(mechanism, rigid, numbers, Vector3::Zero(), unloaded, like);
+  mark_nominal(like);
+  return like;
 }
 
 }  // namespace counterflex::kernel

@@ -25,4 +25,9 @@ void read_state(const Mechanism& mechanism, const Flat& flat, const Configuratio
 void write_state(const Mechanism& mechanism, const Flat& flat, const StateNumbers& numbers, const Vector3& p,
                  const Stage& stage, Configuration& configuration);
 
+/// The nominal configuration with the state at `state`, of the machine that `flatten_rigid` makes. `like`:
+/// one of the same machine.
+Configuration nominal_of(const Mechanism& mechanism, const Flat& rigid, const double* state,
+                         Configuration like);
+
 }  // namespace counterflex::kernel
