@@ -103,8 +103,7 @@ std::vector<LoadPlace> LoadPlaces::places() const {
 LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
                        const StartTables* starts) {
   std::vector<LoadsAtPlace> solved(places.size());
-  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
-    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
+  for_each_slice(places.size(), threads, [&](std::size_t begin, std::size_t count) {
     PlaceSolver solver(starts, places[begin].load.at_platform);
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count))
@@ -134,8 +133,7 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
 std::vector<NominalResult> solve_nominal(const std::vector<LoadPlace>& places, int threads,
                                          const StartTables* starts) {
   std::vector<NominalResult> all(places.size());
-  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
-    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
+  for_each_slice(places.size(), threads, [&](std::size_t begin, std::size_t count) {
     PlaceSolver solver(starts, places[begin].load.at_platform);
     std::vector<TipPosition> at;
     for (const LoadPlace& place : std::span(places).subspan(begin, count))
@@ -166,8 +164,7 @@ std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* st
 std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, double factor, int threads,
                                           const StartTables* starts) {
   std::vector<OtherForce> all(places.size());
-  for_each_index(slice_count(places.size()), threads, [&](std::size_t slice) {
-    const std::size_t begin = slice * slice_size, count = std::min(places.size() - begin, slice_size);
+  for_each_slice(places.size(), threads, [&](std::size_t begin, std::size_t count) {
     std::vector<TipPosition> positions;
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count)) {

@@ -153,8 +153,7 @@ bool corner_holds(const OffsetQuestion& q, const Corner& corner, const OtherLeng
   const CornerSolving solving{q, frames, q.tool ? &other.models.at(corner.longer) : nullptr,
                               q.tool ? &other.starts : q.starts};
   std::atomic<bool> holds = true;
-  for_each_index(slice_count(q.places.size()), q.options.threads, [&](std::size_t slice) {
-    const std::size_t begin = slice * slice_size, count = std::min(q.places.size() - begin, slice_size);
+  for_each_slice(q.places.size(), q.options.threads, [&](std::size_t begin, std::size_t count) {
     if (holds && !slice_holds(solving, std::span(q.places).subspan(begin, count))) holds = false;
   });
   return holds;

@@ -152,12 +152,11 @@ class Search {
   template <typename Rows>
   int solve(const Rows& rows, const Eigen::VectorXd& x, std::vector<Vector3>& deviations) const {
     deviations.assign(rows.size(), Vector3::Zero());
-    std::vector<int> failed(slice_count(rows.size()), 0);
+    std::vector<int> failed(rows.size(), 0);
     std::vector<Pose> offsets;
     for (std::size_t offset = 0; offset < v_.freedom.offsets; ++offset)
       offsets.push_back(offset_shift(v_, x, offset));
-    for_each_index(slice_count(rows.size()), threads_, [&](std::size_t slice) {
-      const std::size_t begin = slice * slice_size, count = std::min(rows.size() - begin, slice_size);
+    for_each_slice(rows.size(), threads_, [&](std::size_t begin, std::size_t count) {
       std::vector<TipPosition> positions;
       std::vector<ForwardRequest> requests;
       for (std::size_t i = begin; i < begin + count; ++i) {
@@ -180,8 +179,8 @@ class Search {
       for (std::size_t i = 0; i < count; ++i) {
         if (wanted[i].status == Status::converged && answers[i].status == Status::converged)
           deviations[begin + i] = answers[i].X_MT.p - wanted[i].X_MT.p;
-        else if (failed[slice] == 0)
-          failed[slice] = rows[begin + i].at.line;
+        else
+          failed[begin + i] = rows[begin + i].at.line;
       }
     });
     const auto first = std::ranges::find_if(failed, [](int line) { return line != 0; });

@@ -5,7 +5,7 @@
 #include <utility>
 
 #include "compensation/solve/solver.hpp"
-#include "counterflex/files/parallel.hpp"
+#include "compensation/windows/parallel.hpp"
 
 namespace counterflex {
 namespace {
@@ -92,11 +92,11 @@ template <typename Solved>
 std::vector<Solved> solve_in_slices(const Model& model, const StartTables& starts,
                                     std::span<const PoseRequest> requests, int threads) {
   std::vector<Solved> solved(requests.size());
-  for_each_index((requests.size() + poses_at_once - 1) / poses_at_once, threads, [&](std::size_t slice) {
-    const std::size_t first = slice * poses_at_once, count = std::min(poses_at_once, requests.size() - first);
+  const auto solve = [&](std::size_t begin, std::size_t count) {
     SliceOfPoses(model, starts)
-        .solve(requests.subspan(first, count), std::span(solved).subspan(first, count));
-  });
+        .solve(requests.subspan(begin, count), std::span(solved).subspan(begin, count));
+  };
+  for_each_slice(requests.size(), threads, solve, poses_at_once);
   return solved;
 }
 

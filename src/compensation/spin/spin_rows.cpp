@@ -5,7 +5,7 @@
 
 #include "compensation/solve/branch.hpp"
 #include "compensation/solve/solver.hpp"
-#include "counterflex/files/parallel.hpp"
+#include "compensation/windows/parallel.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
 #include "counterflex/statics/arm_margins.hpp"
@@ -110,11 +110,10 @@ class RowSolver {
 
 std::vector<SpinRow> solve_rows(const Job& job, std::span<const SpinRequest> requests) {
   std::vector<SpinRow> rows(requests.size());
-  for_each_index(
-      (rows.size() + places_at_once - 1) / places_at_once, job.options.threads, [&](std::size_t i) {
-        const std::size_t first = i * places_at_once, count = std::min(places_at_once, rows.size() - first);
-        RowSolver(job, requests.subspan(first, count), std::span(rows).subspan(first, count)).run();
-      });
+  const auto solve = [&](std::size_t begin, std::size_t count) {
+    RowSolver(job, requests.subspan(begin, count), std::span(rows).subspan(begin, count)).run();
+  };
+  for_each_slice(rows.size(), job.options.threads, solve, places_at_once);
   return rows;
 }
 

@@ -17,13 +17,6 @@ void append(const Eigen::Matrix<double, n, 1>& v, std::vector<double>& numbers) 
   numbers.insert(numbers.end(), v.begin(), v.end());
 }
 
-Pose pose_of(const double* numbers) {
-  Pose X;
-  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[i];
-  for (int i = 0; i < 3; ++i) X.p[i] = numbers[9 + i];
-  return X;
-}
-
 }  // namespace
 
 /// Waypoints of one problem of the kernel, and its answers.
@@ -187,9 +180,9 @@ struct BatchSolver::Impl {
     for (std::size_t i = 0; i < asked.size(); ++i) {
       BatchAnswer& answer = answers[asked[i]];
       answer.solved = batch.accepted[i] != 0 && batch.is_stiff[i] != 0 && in_travel(i);
-      if (problem.nominal) answer.command = pose_of(&batch.nominal_tips[12 * i]);
+      if (problem.nominal) answer.command = kernel::get_pose(&batch.nominal_tips[12 * i]);
       if (is_forward) answer.command.p = requests[asked[i]].at.p;
-      answer.X_MT = pose_of(&batch.tips[12 * i]);
+      answer.X_MT = kernel::get_pose(&batch.tips[12 * i]);
       answer.iterations = batch.iterations[i];
       if (is_forward && problem.nominal) answer.rho = batch.rho_of(i);
     }
@@ -225,7 +218,7 @@ void BatchSolver::nominal_tips(std::span<const TurnedPlace> places, std::span<No
   }
   impl_->solve_kinematics();
   for (std::size_t k = 0; k < asked.size(); ++k)
-    answers[asked[k]] = {batch.accepted[k] != 0, pose_of(&batch.nominal_tips[12 * k])};
+    answers[asked[k]] = {batch.accepted[k] != 0, kernel::get_pose(&batch.nominal_tips[12 * k])};
 }
 
 LineBend BatchSolver::bend_along(const BatchLine& line) {

@@ -6,6 +6,7 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/cells/offset_bounds.hpp"
+#include "statics/kernel/machine/states.hpp"
 
 namespace counterflex::kernel {
 namespace {
@@ -62,13 +63,6 @@ std::vector<Sample> corners_about(const CellPlace& place, double length) {
   }
   for (int k = 0; k < 8; ++k) corners.push_back({at(corners, k).p});
   return corners;
-}
-
-Pose pose_at(const double* numbers) {
-  Pose X;
-  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[i];
-  for (int i = 0; i < 3; ++i) X.p[i] = numbers[9 + i];
-  return X;
 }
 
 /// Solutions of samples.
@@ -137,7 +131,7 @@ void by_rotation_vector(const Variables& variables, const Vector3& turn, Rows& t
 
 /// From the tip of a sample to its command.
 Vector6 offset_of(const CellPlace& place, const Sample& sample, const double* command) {
-  const Pose X = pose_at(command);
+  const Pose X = get_pose(command);
   Vector6 way;
   way << X.p - sample.p,
       counterflex::log_so3(Matrix3(X.R * (counterflex::exp_so3(sample.turn) * place.R).transpose()));
@@ -157,7 +151,7 @@ class CellSamples {
     by_rotation_vector(variables_, at(samples_.all, sample).turn, J);
     for (int i = 0; i <= machine_.nodes; ++i) {
       const int frame = machine_.joints + 12 * i;
-      to_changes(pose_at(state(sample) + frame), pose_at(state(0) + frame).R, at(samples_.all, sample).p,
+      to_changes(get_pose(state(sample) + frame), get_pose(state(0) + frame).R, at(samples_.all, sample).p,
                  J.middleRows(machine_.joints + 6 * i, 6));
     }
     return J;
@@ -165,7 +159,7 @@ class CellSamples {
 
   Rows offset_jacobian(int sample) const {
     const Sample& of = at(samples_.all, sample);
-    const Pose X = pose_at(solutions_.commands.data() + 12 * sample);
+    const Pose X = get_pose(solutions_.commands.data() + 12 * sample);
     const Matrix3 R_tip = counterflex::exp_so3(of.turn) * place_.R, E = X.R * R_tip.transpose();
     Rows J = responses(sample).bottomRows(6);
     J.topRows<3>() -= skew(X.p - of.p) * J.bottomRows<3>();

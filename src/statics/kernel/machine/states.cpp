@@ -48,13 +48,6 @@ void put_pose(const Pose& X, double* numbers) {
   for (int i = 0; i < 3; ++i) numbers[9 + i] = X.p[i];
 }
 
-Pose get_pose(const double* numbers) {
-  Pose X;
-  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[i];
-  for (int i = 0; i < 3; ++i) X.p[i] = numbers[9 + i];
-  return X;
-}
-
 struct Reader {
   const Flat& flat;
   const Stage& stage;
@@ -146,6 +139,13 @@ struct Writer {
 };
 
 }  // namespace
+
+Pose get_pose(const double* numbers) {
+  Pose X;
+  for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[i];
+  for (int i = 0; i < 3; ++i) X.p[i] = numbers[9 + i];
+  return X;
+}
 
 int actuator_of(const FlatMachine& machine, int joint) {
   const auto found = std::find(machine.actuator_joint.begin(), machine.actuator_joint.end(), joint);

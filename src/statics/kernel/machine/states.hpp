@@ -4,6 +4,9 @@
 
 namespace counterflex::kernel {
 
+/// A pose as twelve numbers: R row by row, then p (m).
+Pose get_pose(const double* numbers);
+
 /// A state of the kernel as numbers. Wrenches are in N and N m, axes of M.
 struct StateNumbers {
   std::vector<double> state;    ///< FlatMachine::state_size numbers
