@@ -92,6 +92,25 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("the machine along a path does not depend on threads, nor on cells but for rounding") {
+  for (const MachineAndPlaces& one : several_machines()) {
+    CAPTURE(one.machine.name);
+    const StartTables starts;
+    const MachineAlong alone = one.along(),
+                       cells = machine_along(one.machine, one.model, one.places, 1, &starts),
+                       threads = machine_along(one.machine, one.model, one.places, 3, &starts);
+    for (std::size_t i = 0; i < one.places.size(); ++i) {
+      CAPTURE(i);
+      REQUIRE(cells.places[i].place.is_known());
+      CHECK(threads.places[i].place.shown == cells.places[i].place.shown);
+      CHECK(threads.places[i].conditioning == cells.places[i].conditioning);
+      CHECK((alone.places[i].place.shown - cells.places[i].place.shown).norm() < 1e-8);
+      CHECK(alone.places[i].conditioning == doctest::Approx(cells.places[i].conditioning).epsilon(1e-6));
+      CHECK((alone.places[i].lines.back().back() - cells.places[i].lines.back().back()).norm() < 1e-9);
+    }
+  }
+}
+
 TEST_CASE("the data of a page has shown values, and the limits of the machine file") {
   MachineAndPlaces robot("/samples/robot-rail/machine.toml");
   robot.add_circle(7, 40 * mm, 5 * deg);
