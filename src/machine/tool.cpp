@@ -84,7 +84,7 @@ Machine with_tool(const Machine& machine, const Tool& tool) {
   result.X_PT = {};
   result.p_EP = inverse(X_PT).p;
   if (result.home_X_MP) *result.home_X_MP = *result.home_X_MP * X_PT;
-  if (result.chains.size() > 1) result.chains = {Chain{"machine and tool", {Group{machine.chains}}}};
+  if (result.chains.size() > 1) result.chains = {Chain{"machine and tool", {Group{result.chains}}}};
   std::vector<Element>& elements = result.chains.front().elements;
   elements.push_back(Rigid{X_PT});
   elements.insert(elements.end(), tool.yields.begin(), tool.yields.end());

@@ -65,13 +65,18 @@ TEST_CASE("a tool with a mass replaces that of [tool], and a tool without one ke
 }
 
 TEST_CASE("a mass in front of a tool that bends is carried by the machine, not by the tool") {
-  Machine machine = tool_sample("mill3");
-  machine.gravity = {gravity_down};
-  const Model base = prepare(machine);
-  Tool tool = tool_of_mass(5, Vector3(0, 0, 0.1));
-  const Pose stiff = tip(prepare_with_tool(machine, base, tool).mechanism,
-                         home_under(prepare_with_tool(machine, base, tool)));
-  tool.yields = radial_tool(1e6);
-  const Model bent = prepare_with_tool(machine, base, tool);
-  CHECK((tip(bent.mechanism, home_under(bent)).p - stiff.p).norm() < 1e-9);
+  for (const char* name : {"mill3", "orthoglide-groove", "hexapod"}) {
+    CAPTURE(name);
+    Machine machine = tool_sample(name);
+    machine.gravity = {gravity_down};
+    const Model base = prepare(machine);
+    Tool tool = tool_of_mass(5, Vector3(0, 0, 0.1));
+    const double without_tool = total_mass(machine);
+    const Model rigid = prepare_with_tool(machine, base, tool);
+    const Pose stiff = tip(rigid.mechanism, home_under(rigid));
+    tool.yields = radial_tool(1e6);
+    CHECK(total_mass(with_tool(machine, tool)) == without_tool + 5);
+    const Model bent = prepare_with_tool(machine, base, tool);
+    CHECK((tip(bent.mechanism, home_under(bent)).p - stiff.p).norm() < 1e-9);
+  }
 }
