@@ -16,7 +16,7 @@
 #include "counterflex/files/parallel.hpp"
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/machine/read_machine.hpp"
-#include "counterflex/statics/pose_solver.hpp"
+#include "counterflex/statics/loaded_tips.hpp"
 #include "counterflex/statics/tip_stiffness.hpp"
 #include "loaded_machine.hpp"
 #include "process/read_input.hpp"
@@ -130,13 +130,12 @@ py::tuple tip_matrices(const LoadedMachine& machine, const Array& poses, const A
   const StartTable& table = machine.starts.of(model, false);
   for_each_index((count + at_once - 1) / at_once, threads, [&](std::size_t slice) {
     const std::size_t first = slice * at_once, some = std::min(at_once, count - first);
-    std::vector<CommandedPose> commanded;
+    std::vector<BatchRequest> commanded;
     for (std::size_t i = first; i < first + some; ++i) {
       const Pose X_MT = pose_from(from + 16 * i);
       commanded.push_back({{X_MT.p, rotation_between(X_MT.R, R_home)}, Vector6(loads + 6 * i)});
     }
-    std::vector<LoadedCompliance> found(some);
-    PoseSolver(model, table).compliances(commanded, found);
+    const std::vector<LoadedCompliance> found = loaded_compliances(table, commanded);
     for (std::size_t i = 0; i < some; ++i) {
       status[first + i] = static_cast<std::uint8_t>(found[i].status);
       if (found[i].status != Status::converged) continue;

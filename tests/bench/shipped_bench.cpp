@@ -6,9 +6,16 @@
 
 #include "bench_cases.hpp"
 #include "counterflex/statics/batch_solver.hpp"
+#include "statics/kernel/batch.hpp"
 
 namespace counterflex::bench {
 namespace {
+
+/// The vector instructions that the kernel uses on this computer.
+const char* kernel_instructions() {
+  const int lanes = kernel::all_instances().back().lanes;
+  return lanes == 8 ? "AVX-512" : lanes == 4 ? "AVX2" : "scalar";
+}
 
 constexpr std::size_t batch = 256;
 constexpr double spacing = 0.5e-3;  // m

@@ -47,7 +47,7 @@ TEST_CASE("the least margin names axis, value, line and travel") {
   const Vector3 home = tip(model.mechanism, model.home).p;
   TravelTally tally;
   CHECK(check_travel(model.mechanism, tally, {}).state == SanityState::unknown);
-  NominalToolPath path(home_of(model));
+  NominalToolPath path(model);
   int line = 3;
   for (const double z : {0.0, 0.499, 0.3}) {
     REQUIRE(path.go_to(model, home + Vector3(0, 0, z)) == Status::converged);

@@ -97,9 +97,6 @@ class StartTables {
   std::unique_ptr<Impl> impl_;
 };
 
-/// The vector instructions that the kernel uses on this computer.
-const char* kernel_instructions();
-
 /// Solves requests for one thread.
 class BatchSolver {
  public:
@@ -127,8 +124,8 @@ class BatchSolver {
   /// It is valid until the next call.
   const Configuration* nominal_near(const TurnedPlace& place);
 
-  /// Whether the straight way between two places stays on one branch of the nominal kinematics. False also
-  /// where one of them has no cell.
+  /// Whether the straight way between two places near each other stays on one branch of the nominal
+  /// kinematics. If it is false, follow the way: places are too far apart, or one of them has no cell.
   bool joins(const TurnedPlace& from, const TurnedPlace& to);
 
  private:

@@ -83,8 +83,7 @@ NominalResult nominal_forward(const Model& model, const Configuration& from, con
 Pose tip(const Mechanism& mechanism, const Configuration& configuration);
 
 /// Whether every actuator is in its range. `rho` has the values of all actuators.
-bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho);
-bool within_travel(const Mechanism& mechanism, const double* rho);
+bool within_travel(const Mechanism& mechanism, const Eigen::Ref<const Eigen::VectorXd>& rho);
 
 /// Full turns (rad) to add to `rho`, the values of all actuators, so that rotary ones are nearest to `near`.
 Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& rho,
@@ -105,33 +104,23 @@ Model prepare_with_tool(const Machine& machine, const Model& base, const Tool& t
 /// has none.
 ToolModels prepare_tools(const Machine& machine, const Model& base, const std::vector<long>& numbers);
 
-/// A nominal configuration, and the model that it is one of.
-struct NominalPlace {
-  const Model* model = nullptr;
-  Configuration configuration{};
-};
-
-/// Where inverse kinematics of `model` starts.
-NominalPlace home_of(const Model& model);
-
-/// The nominal path of a machine whose tools change: it starts again at home where the model changes, and
+/// The nominal path of a machine whose tools change: it starts at home, again where the model changes, and
 /// its tip keeps the orientation that it has at that home.
 class NominalToolPath {
  public:
-  explicit NominalToolPath(const NominalPlace& start);
+  explicit NominalToolPath(const Model& model) { begin(model); }
 
   /// Moves the tip of `model` to `p_MT` (m, in M), in the orientation `R_MT` or else home's; `model` outlives
   /// the path. As `NominalPath::go_to`.
   Status go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT = {});
 
   const Configuration& configuration() const { return path_->configuration(); }
-  NominalPlace place() const { return {model_, configuration()}; }
 
   /// Orientation of the tip at the current configuration, in M.
   Matrix3 orientation() const;
 
  private:
-  void begin(const Model& model, const Configuration& start);
+  void begin(const Model& model);
 
   const Model* model_ = nullptr;
   Matrix3 R_home_ = Matrix3::Identity();

@@ -197,7 +197,7 @@ std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const 
 std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
                                        const std::vector<WorkFrame>& frames, ProgramReader reader,
                                        TravelTally& travel) {
-  NominalToolPath nominal(home_of(base));
+  NominalToolPath nominal(base);
   while (reader.next())
     for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
       const long tool = reader.window().moves[segment.move].tool;

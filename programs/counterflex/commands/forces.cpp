@@ -74,7 +74,7 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
 class ToolAxes {
  public:
   explicit ToolAxes(const Run* run) : run_(run) {
-    if (run != nullptr) nominal_.emplace(home_of(run->machine.model));
+    if (run != nullptr) nominal_.emplace(run->machine.model);
   }
 
   std::vector<Matrix3> along(const Program& window, const Toolpath& path) {

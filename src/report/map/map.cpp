@@ -7,7 +7,7 @@
 
 #include "counterflex/files/parallel.hpp"
 #include "counterflex/geometry/pose.hpp"
-#include "counterflex/statics/pose_solver.hpp"
+#include "counterflex/statics/loaded_tips.hpp"
 #include "counterflex/statics/tip_stiffness.hpp"
 
 namespace counterflex {
@@ -26,25 +26,22 @@ MapPlace stiffness_place(const Matrix6& compliance, const std::optional<Vector3>
 }
 
 /// Solves the places from index `first` on.
-void solve_chunk(const Model& model, const MapRequest& request, const StartTable& table, std::size_t first,
+void solve_chunk(const MapRequest& request, const StartTable& table, std::size_t first,
                  std::vector<MapPlace>& places) {
   const std::size_t count = std::min(chunk, places.size() - first);
   const Vector3 turn = log_so3(request.R_turn);
-  std::vector<CommandedPose> poses;
+  std::vector<BatchRequest> poses;
   for (std::size_t i = 0; i < count; ++i)
     poses.push_back({{request.grid.place(first + i), turn}, request.load.F});
-  PoseSolver solver(model, table);
   if (request.quantity == MapQuantity::stiffness) {
-    std::vector<LoadedCompliance> found(count);
-    solver.compliances(poses, found);
+    const std::vector<LoadedCompliance> found = loaded_compliances(table, poses);
     for (std::size_t i = 0; i < count; ++i)
       places[first + i] = found[i].status == Status::converged
                               ? stiffness_place(found[i].C, request.direction)
                               : MapPlace{found[i].status};
     return;
   }
-  std::vector<LoadedTip> found(count);
-  solver.tips(poses, found);
+  const std::vector<LoadedTip> found = loaded_tips(table, poses);
   for (std::size_t i = 0; i < count; ++i)
     places[first + i] = found[i].status == Status::converged ? deviation_place(found[i].X_MT.p, poses[i].at.p)
                                                              : MapPlace{found[i].status};
@@ -56,7 +53,7 @@ std::vector<MapPlace> map_places(const Model& model, const MapRequest& request) 
   std::vector<MapPlace> places(request.grid.size());
   const StartTable table(model, false);
   for_each_index((places.size() + chunk - 1) / chunk, request.threads,
-                 [&](std::size_t i) { solve_chunk(model, request, table, i * chunk, places); });
+                 [&](std::size_t i) { solve_chunk(request, table, i * chunk, places); });
   return places;
 }
 

@@ -55,41 +55,41 @@ struct Problem {
   const FlatMachine& machine() const { return *(real ? real : nominal)->machine; }
 };
 
-/// Numbers of waypoint after waypoint; what is not asked for may be null.
+/// Waypoints and their solutions, number after number. Of the waypoints, what a problem does not use may be
+/// empty.
 struct Batch {
-  int count = 0;
-  const double* p = nullptr;    ///< 3 each: wanted tip, or a place near it (m)
-  const double* R = nullptr;    ///< 9 each: wanted orientation, row by row; where it is controlled
-  const double* F = nullptr;    ///< 6 each: wrench on the machine (N, N m), axes of M
-  const double* rho = nullptr;  ///< commanded actuator values; where they are held
-  /// What joints of the real machine have more than the commanded values, for each actuator; null: nothing.
-  const double* lag = nullptr;
-  // States of each machine; `stride`: numbers from start to start; 0: all have the same.
-  const double *start = nullptr, *nominal_start = nullptr;
-  long start_stride = 0, nominal_start_stride = 0;
-  // Instead: a cell of each waypoint for each machine.
-  const StartCell *const *cells = nullptr, *const *nominal_cells = nullptr;
+  std::vector<double> p;    ///< 3 each: wanted tip, or a place near it (m)
+  std::vector<double> R;    ///< 9 each: wanted orientation, row by row; where it is controlled
+  std::vector<double> F;    ///< 6 each: wrench on the machine (N, N m), axes of M
+  std::vector<double> rho;  ///< commanded actuator values; where they are held
+  /// What joints of the real machine have more than the commanded values, for each actuator; empty: nothing.
+  std::vector<double> lag;
+  std::vector<double> start, nominal_start;  ///< states of each machine: one of each waypoint, or one of all
+  std::vector<const StartCell*> cells, nominal_cells;  ///< instead: a cell of each waypoint for each machine
 
-  unsigned char* accepted = nullptr;
-  int* iterations = nullptr;
+  bool wants_states = false, wants_pivots = false;
+  std::optional<Variables> response_to{};  ///< responses are wanted
+
+  std::vector<unsigned char> accepted;
+  std::vector<int> iterations;
   /// Of the real machine's first step, or of both: the second step over the first; 0: none.
-  double* contraction = nullptr;
-  double* actuators = nullptr;    ///< commanded values that belong to the solution
-  double* tip = nullptr;          ///< of the real machine, 12 each: R row by row, p
-  double* nominal_tip = nullptr;  ///< 12 each
-  // Of the real machine, or of the nominal one where it is alone:
-  double* state = nullptr;  ///< state_size each
+  std::vector<double> contraction;
+  std::vector<double> actuators;         ///< commanded values that belong to the solution
+  std::vector<double> tip, nominal_tip;  ///< of the machines that there are, 12 each: R row by row, p
+  /// Of a waypoint with a cell: every pivot of the last tangent, which has the stress that the cell or the
+  /// step before predicts, keeps `least_stiffness` of the cell's.
+  std::vector<unsigned char> is_stiff;
+  // If they are wanted, of the real machine, or of the nominal one where it is alone:
+  std::vector<double> state;  ///< state_size each
   /// By element: force and moment about its end (N, N m), axes of M; of groups zero.
-  double* stress = nullptr;
-  double* pivots = nullptr;  ///< FlatMachine::pivots each, actuators held; zero: a free joint
+  std::vector<double> stress;
+  std::vector<double> pivots;  ///< one of each unknown, actuators held; zero: an actuator or a free joint
   /// First derivatives of the solution by the variables `response_to`: for each of them the step of the
   /// unknowns (joints, then twists about the wanted tip), and of the nominal platform (a twist), if there is
   /// a real machine.
-  double* responses = nullptr;
-  Variables response_to{};
-  /// Every pivot of the last tangent, which has the stress that the cell or the step before predicts, keeps
-  /// `least_stiffness` of the cell's.
-  unsigned char* is_stiff = nullptr;
+  std::vector<double> responses;
+
+  int count() const { return static_cast<int>(p.size() / 3); }
 };
 
 /// Which stress the first tangent has. Later ones have what the last linear step predicted: with the stress
@@ -102,7 +102,7 @@ struct Schedule {
   FirstStress first = FirstStress::none;
 };
 
-/// The kernel for one kind of numbers.
+/// The kernel for one kind of numbers. It solves a batch whose solutions have their sizes.
 struct Instance {
   void (*solve)(const Problem&, const Schedule&, Batch&);
   int lanes;
@@ -112,7 +112,7 @@ struct Instance {
 extern const Instance scalar_instance;
 std::vector<Instance> all_instances();
 
-/// The fastest instance for so many waypoints.
-const Instance& instance_for(std::size_t waypoints);
+/// Solves a batch by one of them, or else by the fastest one for its size.
+void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by = nullptr);
 
 }  // namespace counterflex::kernel

@@ -16,9 +16,27 @@ std::vector<Instance> all_instances() {
   return instances;
 }
 
-const Instance& instance_for(std::size_t waypoints) {
+// Sizes are set here: the vectors of an instance must have no code for instructions that a computer lacks.
+void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by) {
   static const Instance widest = all_instances().back();
-  return waypoints == 1 ? scalar_instance : widest;
+  const FlatMachine& machine = problem.machine();
+  const auto count = static_cast<std::size_t>(batch.count());
+  if (count == 0) return;
+  const auto size = [count](std::vector<double>& numbers, bool is_wanted, std::size_t of_one) {
+    numbers.resize(is_wanted ? of_one * count : 0);
+  };
+  const auto unknowns = static_cast<std::size_t>(machine.unknowns());
+  batch.accepted.resize(count), batch.iterations.resize(count), batch.is_stiff.resize(count);
+  size(batch.contraction, true, 1);
+  size(batch.actuators, true, machine.actuator_joint.size());
+  size(batch.tip, problem.real.has_value(), 12);
+  size(batch.nominal_tip, problem.nominal.has_value(), 12);
+  size(batch.state, batch.wants_states, static_cast<std::size_t>(machine.state_size()));
+  size(batch.stress, batch.wants_states, 6 * machine.elements.size());
+  size(batch.pivots, batch.wants_pivots, unknowns);
+  const std::size_t variables = batch.response_to ? static_cast<std::size_t>(batch.response_to->count()) : 0;
+  size(batch.responses, variables > 0, variables * (unknowns + (problem.real ? 6 : 0)));
+  (by != nullptr ? *by : count == 1 ? scalar_instance : widest).solve(problem, schedule, batch);
 }
 
 }  // namespace counterflex::kernel

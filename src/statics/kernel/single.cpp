@@ -4,7 +4,7 @@
 #include <cmath>
 #include <limits>
 
-#include "statics/kernel/newton.hpp"
+#include "statics/kernel/solve_batch.hpp"
 
 namespace counterflex::kernel {
 namespace {
@@ -13,18 +13,6 @@ constexpr double unknown_contraction = std::numeric_limits<double>::infinity();
 
 Vec6<double> vec6(const double* x) {
   return {{{x[0], x[1], x[2]}}, {{x[3], x[4], x[5]}}};
-}
-
-Frame<double> frame_about(const double* x, const Vec3<double>& origin) {
-  Frame<double> X;
-  for (int i = 0; i < 9; ++i) X.R.c[i] = x[i];
-  for (int i = 0; i < 3; ++i) X.p[i] = x[9 + i] - origin[i];
-  return X;
-}
-
-void put_frame(const Frame<double>& X, const Vec3<double>& origin, double* x) {
-  for (int i = 0; i < 9; ++i) x[i] = X.R.c[i];
-  for (int i = 0; i < 3; ++i) x[9 + i] = X.p[i] + origin[i];
 }
 
 bool turns_are_in_range(const Work<double>& work) {
@@ -50,7 +38,7 @@ struct Single::Impl {
 
   bool is_able(const Waypoint& waypoint) const {
     const auto& controlled = flat.machine.controlled;
-    return flat.why_not.empty() &&
+    return flat.is_solvable &&
            (!waypoint.X_MT || std::any_of(controlled.begin(), controlled.end(), [](bool c) { return c; }));
   }
 
@@ -77,7 +65,9 @@ struct Single::Impl {
     const Pose X_MT = waypoint.X_MT ? *waypoint.X_MT : start.X_MP * mechanism.X_PT;
     for (int i = 0; i < 3; ++i) w.origin[i] = X_MT.p[i];
     for (int i = 0; i < 9; ++i) w.wanted_R.c[i] = X_MT.R(i / 3, i % 3);
-    put_state();
+    put_state(machine, 0, numbers.state.data(), w);
+    for (std::size_t i = 0; i < machine.elements.size(); ++i)
+      w.start_stress[i] = vec6(numbers.stress.data() + 6 * i);
   }
 
   // Passive springs are relaxed in the nominal configuration, as far as preloads do not act.
@@ -88,22 +78,6 @@ struct Single::Impl {
       const double nominal = at(numbers.nominal, step.joint);
       step.rest = nominal + preload * (rests[i] - nominal);
     }
-  }
-
-  void put_state() {
-    const FlatMachine& machine = flat.machine;
-    State<double>& state = work().state;
-    const double* x = numbers.state.data();
-    for (int j = 0; j < machine.joints; ++j, ++x) {
-      at(state.joints, j) = {*x, std::cos(*x), std::sin(*x)};
-    }
-    for (Frame<double>& node : state.nodes) {
-      node = frame_about(x, work().origin);
-      x += 12;
-    }
-    state.platform = frame_about(x, work().origin);
-    for (std::size_t i = 0; i < machine.elements.size(); ++i)
-      work().start_stress[i] = vec6(numbers.stress.data() + 6 * i);
   }
 
   // What the linear step adds to the wrench on the end of a series.
@@ -119,14 +93,7 @@ struct Single::Impl {
   }
 
   void get(const Mechanism& mechanism, const Stage& stage, Configuration& configuration) {
-    const State<double>& state = work().state;
-    double* x = numbers.state.data();
-    for (const JointState<double>& joint : state.joints) *x++ = joint.q;
-    for (const Frame<double>& node : state.nodes) {
-      put_frame(node, work().origin, x);
-      x += 12;
-    }
-    put_frame(state.platform, work().origin, x);
+    get_state(0, work(), numbers.state.data());
     numbers.ends.clear();
     for (std::size_t s = 0; s < flat.machine.series.size(); ++s) {
       const Vec6<double> end = work().equations.ends[s] + correction(static_cast<int>(s));
@@ -186,15 +153,12 @@ struct Single::Impl {
   }
 
   void note_first_step(SingleAnswer& answer) {
-    const FlatMachine& machine = flat.machine;
-    double x[12];
-    put_frame(work().state.platform, work().origin, x);
-    for (int i = 0; i < 9; ++i) answer.first_X_MP.R(i / 3, i % 3) = x[i];
-    for (int i = 0; i < 3; ++i) answer.first_X_MP.p[i] = x[9 + i];
-    answer.first_rho.resize(static_cast<Eigen::Index>(machine.actuator_joint.size()));
+    const Frame<double>& X = work().state.platform;
+    for (int i = 0; i < 9; ++i) answer.first_X_MP.R(i / 3, i % 3) = X.R.c[i];
+    for (int i = 0; i < 3; ++i) answer.first_X_MP.p[i] = X.p[i] + work().origin[i];
+    answer.first_rho.resize(static_cast<Eigen::Index>(flat.machine.actuator_joint.size()));
     for (int a = 0; a < static_cast<int>(answer.first_rho.size()); ++a)
-      answer.first_rho[a] = at(work().state.joints, at(machine.actuator_joint, a)).q -
-                            work().question.gravity * at(machine.actuator_offset, a);
+      answer.first_rho[a] = get_actuator(a, 0, work());
   }
 };
 
@@ -227,7 +191,7 @@ SingleAnswer Single::solve(const Mechanism& mechanism, const Waypoint& waypoint,
 std::optional<PivotRange> Single::pivots(const Mechanism& mechanism, const Waypoint& waypoint,
                                          const Configuration& configuration) {
   const FlatMachine& machine = impl_->flat.machine;
-  if (!impl_->flat.why_not.empty()) return std::nullopt;
+  if (!impl_->flat.is_solvable) return std::nullopt;
   impl_->put(mechanism, {waypoint.load, waypoint.stage}, configuration);
   Work<double>& work = impl_->work();
   evaluate(work);

@@ -51,15 +51,13 @@ void get_stress(int l, const Work<T>& work, double* numbers) {
   }
 }
 
-/// The waypoint of a lane. The last one fills the lanes that are left.
-inline int waypoint_of(const Batch& batch, int first, int lane) {
-  return first + lane < batch.count ? first + lane : batch.count - 1;
-}
-
+/// From states of each waypoint, or from one of all.
 template <class T>
-void put_states(const Batch& batch, int first, const double* states, long stride, Work<T>& work) {
+void put_states(const Batch& batch, int first, const std::vector<double>& states, Work<T>& work) {
+  const int size = work.machine.state_size();
+  const bool has_one = static_cast<int>(states.size()) == size;
   for (int l = 0; l < lane_count<T>; ++l)
-    put_state(work.machine, l, states + stride * waypoint_of(batch, first, l), work);
+    put_state(work.machine, l, states.data() + (has_one ? 0 : size * waypoint_of(batch, first, l)), work);
 }
 
 /// Fills the lanes of a machine with waypoints from `first` on.
@@ -67,10 +65,9 @@ template <class T>
 void put_waypoints(const Batch& batch, int first, Work<T>& work) {
   for (int l = 0; l < lane_count<T>; ++l) {
     const int w = waypoint_of(batch, first, l);
-    for (int i = 0; i < 3; ++i) lane(work.origin[i], l) = batch.p[3 * w + i];
-    for (int i = 0; i < 6 && batch.F != nullptr; ++i) lane(work.load[i], l) = batch.F[6 * w + i];
-    if (batch.R != nullptr)
-      for (int i = 0; i < 9; ++i) lane(work.wanted_R.c[i], l) = batch.R[9 * w + i];
+    for (int i = 0; i < 3; ++i) lane(work.origin[i], l) = at(batch.p, 3 * w + i);
+    for (int i = 0; i < 6 && !batch.F.empty(); ++i) lane(work.load[i], l) = at(batch.F, 6 * w + i);
+    for (int i = 0; i < 9 && !batch.R.empty(); ++i) lane(work.wanted_R.c[i], l) = at(batch.R, 9 * w + i);
   }
 }
 
@@ -96,11 +93,11 @@ double get_actuator(int a, int l, const Work<T>& work) {
 /// The lags of waypoints from `first` on.
 template <class T>
 void put_lags(const Batch& batch, int first, Work<T>& real) {
-  real.lag.resize(batch.lag == nullptr ? 0 : real.machine.actuator_joint.size());
+  real.lag.resize(batch.lag.empty() ? 0 : real.machine.actuator_joint.size());
   const int actuators = static_cast<int>(real.lag.size());
   for (int a = 0; a < actuators; ++a)
     at(real.lag, a) =
-        gather<T>([&](int l) { return batch.lag[actuators * waypoint_of(batch, first, l) + a]; });
+        gather<T>([&](int l) { return at(batch.lag, actuators * waypoint_of(batch, first, l) + a); });
 }
 
 /// The machine has the actuators of the other one.
@@ -122,7 +119,7 @@ void put_held_actuators(const Batch& batch, int first, Work<T>& real) {
   const int actuators = static_cast<int>(real.machine.actuator_joint.size());
   for (int l = 0; l < lane_count<T>; ++l) {
     const int w = waypoint_of(batch, first, l);
-    for (int a = 0; a < actuators; ++a) put_actuator(a, l, batch.rho[actuators * w + a], real);
+    for (int a = 0; a < actuators; ++a) put_actuator(a, l, at(batch.rho, actuators * w + a), real);
   }
 }
 
@@ -133,11 +130,11 @@ void get_tip(int l, const Work<T>& work, double* numbers) {
 }
 
 template <class T>
-void get_pivots(const Batch& batch, int first, const Work<T>& work) {
-  const long count = work.machine.pivots();
+void get_pivots(Batch& batch, int first, const Work<T>& work) {
+  const int count = work.machine.unknowns();
   visit_pivots(work, [&](int i, const T& inverse) {
-    for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l)
-      batch.pivots[count * (first + l) + i] = lane(inverse, l) == 0 ? 0 : 1 / lane(inverse, l);
+    for (int l = 0; l < lane_count<T> && first + l < batch.count(); ++l)
+      at(batch.pivots, count * (first + l) + i) = lane(inverse, l) == 0 ? 0 : 1 / lane(inverse, l);
   });
 }
 
@@ -145,7 +142,9 @@ void get_pivots(const Batch& batch, int first, const Work<T>& work) {
 /// do not count.
 template <class T>
 Mask<T> keeps_pivots(const Batch& batch, int first, const Work<T>& work) {
-  const auto cell_of = [&](int l) -> const StartCell& { return *batch.cells[waypoint_of(batch, first, l)]; };
+  const auto cell_of = [&](int l) -> const StartCell& {
+    return *at(batch.cells, waypoint_of(batch, first, l));
+  };
   T least = all<T>(1), most{};
   visit_pivots(work, [&](int i, const T& inverse) {
     const T unloaded = gather<T>([&](int l) { return at(cell_of(l).pivots, i); });
@@ -159,9 +158,9 @@ Mask<T> keeps_pivots(const Batch& batch, int first, const Work<T>& work) {
 /// First derivatives at the solution: steps of the linearised equations, whose residuals are those of a unit
 /// change.
 template <class T>
-void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
+void get_responses(Batch& batch, int first, Coupled<T>& coupled) {
   const long size = coupled.problem.machine().unknowns() + (coupled.problem.real ? 6 : 0);
-  const int variables = batch.response_to.count();
+  const int variables = batch.response_to->count();
   coupled.for_each([](Work<T>& work) {
     Equations<T>& equations = work.equations;
     for (JointTerms<T>& joint : equations.joints) joint.r = T{};
@@ -170,7 +169,7 @@ void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
     work.predicts_stress = false;
   });
   for (int k = 0; k < variables; ++k) {
-    const int load = k - batch.response_to.first_load();
+    const int load = k - batch.response_to->first_load();
     Equations<T>& changed = load < 0 ? coupled.owner(k).equations : coupled.real.equations;
     Vec6<T> change{};
     const int component = load < 0 ? k : load;
@@ -182,8 +181,8 @@ void get_responses(const Batch& batch, int first, Coupled<T>& coupled) {
     find_step(coupled);
     changed.tip_error = changed.platform = {};
     const Work<T>& work = coupled.first();
-    for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l) {
-      double* numbers = batch.responses + size * (static_cast<long>(variables) * (first + l) + k);
+    for (int l = 0; l < lane_count<T> && first + l < batch.count(); ++l) {
+      double* numbers = batch.responses.data() + size * (static_cast<long>(variables) * (first + l) + k);
       const auto put = [&](const Vec6<T>& twist) {
         for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.v[i], l);
         for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.w[i], l);
@@ -205,12 +204,12 @@ Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedul
     coupled.begin(phases[k]);
     if (k > 0 && phases[k].real) copy_actuators(coupled.nominal, coupled.real);
     if (k > 0 && phases[k].nominal) copy_actuators(coupled.real, coupled.nominal);
-    const T contraction = phases[k].real && batch.cells != nullptr
+    const T contraction = phases[k].real && !batch.cells.empty()
                               ? contraction_of_cells<T>(batch, first, coupled.real)
                               : all<T>(std::numeric_limits<double>::infinity());
     const Solved<T> here =
         iterate<T>(schedule, solved.accepted, contraction, coupled, [&](const Mask<T>& active) {
-          if (batch.is_stiff == nullptr || !phases[k].real) return;
+          if (batch.cells.empty() || !phases[k].real) return;
           const Mask<T> keeps = keeps_pivots(batch, first, coupled.real), done = opposite<T>(active);
           is_stiff = (is_stiff & done) | (keeps & active);
         });
@@ -228,16 +227,15 @@ void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch)
   const Phase whole = coupled.phase;
   const std::vector<Phase> phases = phases_of(problem);
   const int actuators = static_cast<int>(machine.actuator_joint.size());
-  for (int first = 0; first < batch.count; first += lane_count<T>) {
+  for (int first = 0; first < batch.count(); first += lane_count<T>) {
     coupled.begin(whole);
     const Work<T>& first_work = coupled.first();
     coupled.for_each([&](Work<T>& work) { put_waypoints(batch, first, work); });
     put_lags(batch, first, coupled.real);
-    const bool has_cells = batch.start == nullptr && batch.nominal_start == nullptr;
+    const bool has_cells = batch.start.empty() && batch.nominal_start.empty();
     if (has_cells) put_from_cells(batch, first, coupled);
-    if (!has_cells && problem.real) put_states(batch, first, batch.start, batch.start_stride, coupled.real);
-    if (!has_cells && problem.nominal)
-      put_states(batch, first, batch.nominal_start, batch.nominal_start_stride, coupled.nominal);
+    if (!has_cells && problem.real) put_states(batch, first, batch.start, coupled.real);
+    if (!has_cells && problem.nominal) put_states(batch, first, batch.nominal_start, coupled.nominal);
     if (!problem.nominal)
       put_held_actuators(batch, first, coupled.real);
     else if (phases.front().real && phases.front().nominal)
@@ -245,25 +243,24 @@ void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch)
     Mask<T> is_stiff = first_work.origin[0] == first_work.origin[0];
     const Solved<T> solved = solve_phases(phases, schedule, batch, first, coupled, is_stiff);
     coupled.begin(whole);
-    for (int l = 0; l < lane_count<T> && first + l < batch.count; ++l) {
+    for (int l = 0; l < lane_count<T> && first + l < batch.count(); ++l) {
       const int w = first + l;
-      batch.accepted[w] = lane_of_mask<T>(solved.accepted, l);
-      if (batch.is_stiff != nullptr) batch.is_stiff[w] = lane_of_mask<T>(is_stiff, l);
-      if (batch.contraction != nullptr) batch.contraction[w] = lane(solved.contraction, l);
-      if (batch.iterations != nullptr) batch.iterations[w] = static_cast<int>(lane(solved.iterations, l));
-      for (int a = 0; a < actuators && batch.actuators != nullptr; ++a)
-        batch.actuators[actuators * w + a] = get_actuator(a, l, first_work);
-      if (batch.tip != nullptr) get_tip(l, coupled.real, batch.tip + 12 * w);
-      if (batch.nominal_tip != nullptr) get_tip(l, coupled.nominal, batch.nominal_tip + 12 * w);
-      if (batch.state != nullptr)
-        get_state(l, first_work, batch.state + static_cast<long>(machine.state_size()) * w);
-      if (batch.stress != nullptr)
-        get_stress(l, first_work, batch.stress + 6 * static_cast<long>(machine.elements.size()) * w);
+      at(batch.accepted, w) = lane_of_mask<T>(solved.accepted, l);
+      at(batch.is_stiff, w) = lane_of_mask<T>(is_stiff, l);
+      at(batch.contraction, w) = lane(solved.contraction, l);
+      at(batch.iterations, w) = static_cast<int>(lane(solved.iterations, l));
+      for (int a = 0; a < actuators; ++a)
+        at(batch.actuators, actuators * w + a) = get_actuator(a, l, first_work);
+      if (problem.real) get_tip(l, coupled.real, batch.tip.data() + 12 * w);
+      if (problem.nominal) get_tip(l, coupled.nominal, batch.nominal_tip.data() + 12 * w);
+      if (!batch.wants_states) continue;
+      get_state(l, first_work, batch.state.data() + static_cast<long>(machine.state_size()) * w);
+      get_stress(l, first_work, batch.stress.data() + 6 * static_cast<long>(machine.elements.size()) * w);
     }
-    if (batch.pivots == nullptr && batch.responses == nullptr) continue;
+    if (!batch.wants_pivots && !batch.response_to) continue;
     factor_at_solution(coupled);
-    if (batch.pivots != nullptr) get_pivots(batch, first, coupled.first());
-    if (batch.responses != nullptr) get_responses(batch, first, coupled);
+    if (batch.wants_pivots) get_pivots(batch, first, coupled.first());
+    if (batch.response_to) get_responses(batch, first, coupled);
   }
 }
 

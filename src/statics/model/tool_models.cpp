@@ -54,22 +54,14 @@ ToolModels prepare_tools(const Machine& machine, const Model& base, const std::v
   return models;
 }
 
-NominalPlace home_of(const Model& model) {
-  return {&model, model.home};
-}
-
-NominalToolPath::NominalToolPath(const NominalPlace& start) {
-  begin(*start.model, start.configuration);
-}
-
-void NominalToolPath::begin(const Model& model, const Configuration& start) {
+void NominalToolPath::begin(const Model& model) {
   model_ = &model;
   R_home_ = tip(model.mechanism, model.home).R;
-  path_.emplace(model, start);
+  path_.emplace(model, model.home);
 }
 
 Status NominalToolPath::go_to(const Model& model, const Vector3& p_MT, const std::optional<Matrix3>& R_MT) {
-  if (&model != model_) begin(model, model.home);
+  if (&model != model_) begin(model);
   return path_->go_to({R_MT.value_or(R_home_), p_MT});
 }
 

@@ -2,7 +2,6 @@
 /// Following an equilibrium while errors, load, preloads and weights grow.
 #include <functional>
 
-#include "statics/solve/judge.hpp"
 #include "statics/solve/newton.hpp"
 
 namespace counterflex {

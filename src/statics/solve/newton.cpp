@@ -1,5 +1,6 @@
 #include "statics/solve/newton.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <limits>
 
@@ -33,6 +34,13 @@ bool is_elsewhere(const Mechanism& mechanism, const Place& start, const Place& f
                         predicted = travelled(mechanism, start, foreseen);
   const double surplus = (way - predicted).norm();
   return surplus > jump_floor && surplus > same_way * predicted.norm();
+}
+
+bool pivots_prove(const Model& model, const Configuration& configuration, const Problem& problem,
+                  StaticsWork::Impl& work) {
+  const auto pivots = work.kernel.pivots(model.mechanism, problem, configuration);
+  return pivots && pivots->unstable_directions == 0 &&
+         std::max(pivots->largest, Units::stiffness) < proving_ratio * pivots->least;
 }
 
 }  // namespace
@@ -78,6 +86,37 @@ NewtonResult newton(const Model& model, const Problem& problem, StaticsWork::Imp
   return {true, answer.iterations,
           is_elsewhere(mechanism, start, {answer.first_X_MP, answer.first_rho},
                        place_of(mechanism, configuration))};
+}
+
+double least_eigenvalue(const Model& model, const Configuration& configuration, const Problem& problem,
+                        StaticsWork::Impl& work) {
+  evaluate_all(model, configuration, problem.stage, work);
+  return least_scaled_eigenvalue(whole_system(model, configuration, problem, work));
+}
+
+Stability judge_stability(const Model& model, const Configuration& configuration, const Problem& problem,
+                          StaticsWork::Impl& work) {
+  if (pivots_prove(model, configuration, problem, work)) return {true, true};
+  double least = least_eigenvalue(model, configuration, problem, work);
+  if (std::abs(least) < clear_eigenvalue) {  // near the critical load the wrenches must be exact
+    Configuration exact = configuration;
+    if (newton_of_whole_system(model, problem, work, exact).converged)
+      least = least_eigenvalue(model, exact, problem, work);
+  }
+  return {least >= 0, false};
+}
+
+void judge_condition(const Model& model, const Problem& problem, StaticsWork::Impl& work,
+                     Equilibrium& result) {
+  evaluate_all(model, result.configuration, problem.stage, work);
+  const WholeSystem system = whole_system(model, result.configuration, problem, work);
+  result.status = Status::converged;
+  if (condition_bound(system) < largest_condition) return;
+  const Condition whole = condition(system, Units{model.mechanism.length});
+  result.indeterminate = whole.indeterminate;
+  if (whole.value <= largest_condition) return;
+  result.status = Status::singular;
+  result.weakest = whole.weakest;
 }
 
 }  // namespace counterflex

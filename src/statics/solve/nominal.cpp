@@ -82,9 +82,9 @@ ActuatorJacobian jacobian_of(const Mechanism& mechanism, Kinematics& held, const
 
 }  // namespace
 
-bool within_travel(const Mechanism& mechanism, const double* rho) {
+bool within_travel(const Mechanism& mechanism, const Eigen::Ref<const Eigen::VectorXd>& rho) {
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
-    const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho);
+    const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho.data());
     if (!(value >= mechanism.travel[i].min && value <= mechanism.travel[i].max)) return false;
   }
   return true;
@@ -97,10 +97,6 @@ Eigen::VectorXd full_turns(const Mechanism& mechanism, const Eigen::VectorXd& rh
     if (const auto k = static_cast<Eigen::Index>(i); mechanism.travel[i].kind == JointKind::revolute)
       turns[k] = 2 * pi * std::round((near[k] - rho[k]) / (2 * pi));
   return turns;
-}
-
-bool within_travel(const Mechanism& mechanism, const Eigen::VectorXd& rho) {
-  return within_travel(mechanism, rho.data());
 }
 
 ActuatorJacobian actuator_jacobian(const Model& model, const Configuration& nominal) {

@@ -35,12 +35,11 @@ CellIndex landmark_of(const CellIndex& index) {
 
 }  // namespace
 
-std::optional<Acting> acting_in(const Stage& stage, bool has_weight) {
+std::optional<Stage> stage_of_cells(const Stage& stage, bool has_weight) {
+  const Stage of_cells{.errors = stage.errors, .gravity = has_weight ? stage.gravity : 1};
   const auto is_whole = [](double part) { return part == 0 || part == 1; };
-  if (!is_whole(stage.errors) || stage.preload != 1) return std::nullopt;
-  if (!has_weight) return Acting{stage.errors == 1, true};
-  if (!is_whole(stage.gravity)) return std::nullopt;
-  return Acting{stage.errors == 1, stage.gravity == 1};
+  if (!is_whole(of_cells.errors) || !is_whole(of_cells.gravity) || stage.preload != 1) return std::nullopt;
+  return of_cells;
 }
 
 StartTable::Impl::Impl(const Model& m, bool platform)
@@ -52,7 +51,7 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       real(kernel::transforms_at(flat, 1)),
       rigid_transforms(kernel::transforms_at(rigid, 0)),
       R_home(tip(m.mechanism, m.home).R),
-      is_able(flat.why_not.empty() && m.mechanism.controlled.size() == m.mechanism.travel.size() &&
+      is_able(flat.is_solvable && m.mechanism.controlled.size() == m.mechanism.travel.size() &&
               controls(m.mechanism, Component::x) && controls(m.mechanism, Component::y) &&
               controls(m.mechanism, Component::z)),
       controls_positions(m.mechanism.controlled.size() == 3),
@@ -82,21 +81,22 @@ kernel::CellPlace StartTable::Impl::place_of(const CellIndex& index) const {
   return {exp_so3(turn_edge * turn) * R_home, !controls_positions, edge * (corner.array() + 0.5), edge / 2};
 }
 
-kernel::Question StartTable::Impl::question(Acting acting) const {
-  kernel::Question question{.machine = &flat.machine};
-  question.transforms = acting.errors ? &real : &perfect;
-  question.gravity = acting.gravity ? 1 : 0;
-  question.errors = acting.errors ? 1 : 0;
-  return question;
+kernel::Question StartTable::Impl::question(const Stage& stage) const {
+  return {.machine = &flat.machine,
+          .transforms = stage.errors == 1 ? &real : &perfect,
+          .gravity = stage.gravity,
+          .errors = stage.errors};
 }
 
 std::shared_ptr<const KinematicsCell> StartTable::Impl::kinematics(const CellIndex& index) {
   return kinematics_.get(index, most_cells, [&] { return make_kinematics(index); });
 }
 
-std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index, Acting acting) {
-  CellCache<kernel::StartCell>& cells = targets_[(acting.errors ? 1U : 0U) + (acting.gravity ? 2U : 0U)];
-  return cells.get(index, most_cells, [&] { return make_target(index, acting); });
+std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index,
+                                                                  const Stage& stage) {
+  CellCache<kernel::StartCell>& cells =
+      targets_[(stage.errors == 1 ? 1U : 0U) + (stage.gravity == 1 ? 2U : 0U)];
+  return cells.get(index, most_cells, [&] { return make_target(index, stage); });
 }
 
 NominalResult StartTable::Impl::nominal_at(const CellIndex& index) {
@@ -133,16 +133,13 @@ std::shared_ptr<const KinematicsCell> StartTable::Impl::make_kinematics(const Ce
 // The solver of single waypoints judges the machine at the centre without a load. In the cell the kernel then
 // compares pivots with those of the centre.
 std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const CellIndex& index,
-                                                                       Acting acting) {
+                                                                       const Stage& stage) {
   const auto near = kinematics(index);
   if (!near) return nullptr;
   const kernel::CellPlace place = place_of(index);
-  auto cell = make_target_cell(question(acting), nominal(), place,
+  auto cell = make_target_cell(question(stage), nominal(), place,
                                state_of(model.mechanism, flat, near->nominal, 0), near->start);
   if (!cell) return nullptr;
-  Stage stage;
-  stage.errors = acting.errors ? 1 : 0;
-  stage.gravity = acting.gravity ? 1 : 0;
   const Pose X_MT{place.R, place.centre};
   StaticsWork work(model.mechanism);
   const Equilibrium alone =
@@ -152,8 +149,7 @@ std::shared_ptr<const kernel::StartCell> StartTable::Impl::make_target(const Cel
   for (Eigen::Index a = 0; a < rho.size(); ++a) {
     const double found =
         cell->state[static_cast<std::size_t>(flat.machine.actuator_joint[static_cast<std::size_t>(a)])];
-    const double offset =
-        (acting.gravity ? 1 : 0) * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
+    const double offset = stage.gravity * flat.machine.actuator_offset[static_cast<std::size_t>(a)];
     if (!(std::abs(found - offset - rho[a]) < same_place * model.mechanism.length)) return nullptr;
   }
   return std::make_shared<const kernel::StartCell>(std::move(*cell));

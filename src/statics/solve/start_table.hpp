@@ -13,11 +13,9 @@
 
 namespace counterflex {
 
-/// What acts in a stage besides the load.
-struct Acting {
-  bool errors = true, gravity = true;
-};
-std::optional<Acting> acting_in(const Stage& stage, bool has_weight);
+/// The stage of the cells in which the kernel starts in `stage`: errors and weights act or not, everything
+/// else does. None where a part of something acts.
+std::optional<Stage> stage_of_cells(const Stage& stage, bool has_weight);
 
 /// Nominal kinematics around the centre of a cell.
 struct KinematicsCell {
@@ -102,10 +100,10 @@ struct StartTable::Impl {
   std::optional<CellIndex> index_of(const Vector3& p, const Vector3& turn = Vector3::Zero()) const;
 
   std::shared_ptr<const KinematicsCell> kinematics(const CellIndex& index);
-  std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, Acting acting);
+  std::shared_ptr<const kernel::StartCell> target(const CellIndex& index, const Stage& stage);
 
   /// The real machine, and the nominal one.
-  kernel::Question question(Acting acting) const;
+  kernel::Question question(const Stage& stage) const;
   kernel::Question nominal() const { return kernel::nominal_question(rigid.machine, rigid_transforms); }
 
  private:
@@ -113,7 +111,7 @@ struct StartTable::Impl {
   /// The nominal configuration at the centre of a cell. It is reached straight from that of its landmark, a
   /// cell near it that depends on the index alone; if that fails, from home.
   NominalResult nominal_at(const CellIndex& index);
-  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, Acting acting);
+  std::shared_ptr<const kernel::StartCell> make_target(const CellIndex& index, const Stage& stage);
   kernel::CellPlace place_of(const CellIndex& index) const;
 
   CellCache<Configuration> landmarks_;

@@ -5,7 +5,6 @@
 #include "counterflex/statics/tip_stiffness.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/solve/by_parts.hpp"
-#include "statics/solve/judge.hpp"
 #include "statics/solve/newton.hpp"
 
 namespace counterflex {

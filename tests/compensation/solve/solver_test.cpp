@@ -121,3 +121,18 @@ TEST_CASE("a straight way inside the workspace stays on one branch, a way out of
     CHECK(solver.join(at(9000, 0, 0), at(0, 0, 0)) != Status::converged);
   }
 }
+
+// The wrist centre of the robot is above and behind its tip; on the axis of the first joint that may turn
+// freely.
+TEST_CASE("a straight way through a singularity leaves the branch, though a way beside it does not") {
+  const Model model = prepare(load_machine(reference_machine_file("serial6r_joints")));
+  const StartTables starts;
+  for (const StartTables* tables : {static_cast<const StartTables*>(nullptr), &starts}) {
+    PlaceSolver solver(tables, false);
+    const auto way = [&](double x) {
+      return solver.join({&model, Vector3(x, 0.9, 0.8)}, {&model, Vector3(x, -0.9, 0.8)});
+    };
+    CHECK(way(0.12) != Status::converged);
+    CHECK(way(0.6) == Status::converged);
+  }
+}

@@ -228,11 +228,10 @@ TEST_CASE(
   const Model base = prepare(machine);
   const ToolModels models = prepare_tools(machine, base, {1});
   const Vector3 p = tip(base.mechanism, base.home).p + Vector3(0.05, -0.03, 0.02);
-  NominalToolPath path(home_of(base));
+  NominalToolPath path(base);
   for (const Model* model : {&base, &models.at(1), &base}) {
     REQUIRE(path.go_to(*model, p) == Status::converged);
     const Pose home = tip(model->mechanism, model->home);
-    CHECK(path.place().model == model);
     CHECK((path.orientation() - home.R).norm() < 1e-9);
     CHECK((tip(model->mechanism, path.configuration()).p - p).norm() < 1e-9);
     const NominalResult alone = follow(*model, model->home, {home.R, p});

@@ -4,7 +4,7 @@
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "counterflex/statics/nominal.hpp"
-#include "solve/judge.hpp"
+#include "solve/newton.hpp"
 #include "statics/support/laws_weights.hpp"
 
 using namespace counterflex;

@@ -1,8 +1,7 @@
 #pragma once
 /// Waypoints solved by the kernel, and each of them by the solver of single waypoints, to compare.
-#include "kernel/batch.hpp"
 #include "kernel/cells/start_cell.hpp"
-#include "kernel/machine/flatten.hpp"
+#include "kernel/machine/states.hpp"
 #include "statics/support/laws_weights.hpp"
 
 namespace counterflex::laws {
@@ -18,32 +17,23 @@ struct KernelWaypoint {
 };
 
 struct KernelAnswers {
-  std::vector<unsigned char> accepted;
-  std::vector<int> iterations;
-  std::vector<double> actuators, tips, nominal_tips, states, pivots;
+  kernel::Batch batch;
   int rigid_closures = 0;
 
+  bool accepted(std::size_t w) const { return batch.accepted[w] != 0; }
   Eigen::VectorXd rho(std::size_t w) const {
-    const std::size_t n = actuators.size() / accepted.size();
-    return Eigen::Map<const Eigen::VectorXd>(actuators.data() + w * n, static_cast<Eigen::Index>(n));
+    const std::size_t n = batch.actuators.size() / batch.accepted.size();
+    return Eigen::Map<const Eigen::VectorXd>(batch.actuators.data() + w * n, static_cast<Eigen::Index>(n));
   }
   /// Of unstable directions, actuators held.
   long negative_pivots(std::size_t w) const {
-    const auto n = static_cast<std::ptrdiff_t>(pivots.size() / accepted.size()),
+    const auto n = static_cast<std::ptrdiff_t>(batch.pivots.size() / batch.accepted.size()),
                first = n * static_cast<std::ptrdiff_t>(w);
-    return std::count_if(pivots.begin() + first, pivots.begin() + first + n, [](double x) { return x < 0; }) -
-           6 * rigid_closures;
+    const auto begin = batch.pivots.begin() + first;
+    return std::count_if(begin, begin + n, [](double x) { return x < 0; }) - 6 * rigid_closures;
   }
-  Pose tip(std::size_t w) const { return pose_of(tips, w); }
-  Pose nominal_tip(std::size_t w) const { return pose_of(nominal_tips, w); }
-
- private:
-  static Pose pose_of(const std::vector<double>& numbers, std::size_t w) {
-    Pose X;
-    for (int i = 0; i < 9; ++i) X.R(i / 3, i % 3) = numbers[12 * w + static_cast<std::size_t>(i)];
-    for (int i = 0; i < 3; ++i) X.p[i] = numbers[12 * w + 9 + static_cast<std::size_t>(i)];
-    return X;
-  }
+  Pose tip(std::size_t w) const { return kernel::get_pose(&batch.tip[12 * w]); }
+  Pose nominal_tip(std::size_t w) const { return kernel::get_pose(&batch.nominal_tip[12 * w]); }
 };
 
 /// A machine with its flat form.
@@ -89,43 +79,22 @@ struct FlatBench {
   KernelAnswers solve(const kernel::Problem& problem, const std::vector<KernelWaypoint>& waypoints,
                       const kernel::Instance& instance = kernel::scalar_instance,
                       const kernel::Schedule& schedule = {}) const {
-    const std::size_t n = waypoints.size(), actuators = model.mechanism.travel.size();
-    const kernel::FlatMachine& machine = problem.machine();
-    const auto states = static_cast<std::size_t>(machine.state_size());
-    std::vector<double> p, R, F, rho, start, nominal_start;
-    for (const KernelWaypoint& w : waypoints) {
-      for (int i = 0; i < 3; ++i) p.push_back(w.X_MT.p[i]);
-      for (int i = 0; i < 9; ++i) R.push_back(w.X_MT.R(i / 3, i % 3));
-      for (int i = 0; i < 6; ++i) F.push_back(w.F[i]);
-      rho.insert(rho.end(), w.rho.begin(), w.rho.end());
-      start.insert(start.end(), w.start.begin(), w.start.end());
-      nominal_start.insert(nominal_start.end(), w.nominal_start.begin(), w.nominal_start.end());
-    }
-    KernelAnswers a;
-    a.accepted.resize(n), a.iterations.resize(n), a.actuators.resize(n * actuators);
-    a.tips.resize(12 * n), a.nominal_tips.resize(12 * n), a.states.resize(n * states);
-    a.pivots.resize(n * static_cast<std::size_t>(machine.pivots()));
-    a.rigid_closures = machine.rigid_closures;
     kernel::Batch batch;
-    batch.count = static_cast<int>(n);
-    batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.rho = rho.data();
-    batch.start = start.data(), batch.start_stride = static_cast<long>(start.size() / n);
-    batch.nominal_start = nominal_start.data();
-    batch.nominal_start_stride = static_cast<long>(nominal_start.size() / n);
-    std::vector<const kernel::StartCell*> cells, nominal_cells;
-    for (const KernelWaypoint& w : waypoints) cells.push_back(w.cell);
-    if (!cells.empty() && cells[0] != nullptr) {
-      batch.start = batch.nominal_start = nullptr;
-      batch.cells = cells.data();
-      for (const KernelWaypoint& w : waypoints) nominal_cells.push_back(w.nominal_cell);
-      batch.nominal_cells = nominal_cells.data();
+    for (const KernelWaypoint& w : waypoints) {
+      for (int i = 0; i < 3; ++i) batch.p.push_back(w.X_MT.p[i]);
+      for (int i = 0; i < 9; ++i) batch.R.push_back(w.X_MT.R(i / 3, i % 3));
+      for (int i = 0; i < 6; ++i) batch.F.push_back(w.F[i]);
+      batch.rho.insert(batch.rho.end(), w.rho.begin(), w.rho.end());
+      if (w.cell != nullptr) {
+        batch.cells.push_back(w.cell), batch.nominal_cells.push_back(w.nominal_cell);
+        continue;
+      }
+      batch.start.insert(batch.start.end(), w.start.begin(), w.start.end());
+      batch.nominal_start.insert(batch.nominal_start.end(), w.nominal_start.begin(), w.nominal_start.end());
     }
-    batch.accepted = a.accepted.data(), batch.iterations = a.iterations.data(),
-    batch.actuators = a.actuators.data();
-    batch.tip = a.tips.data(), batch.nominal_tip = a.nominal_tips.data(), batch.state = a.states.data(),
-    batch.pivots = a.pivots.data();
-    instance.solve(problem, schedule, batch);
-    return a;
+    batch.wants_states = batch.wants_pivots = true;
+    kernel::solve(problem, schedule, batch, &instance);
+    return {std::move(batch), problem.machine().rigid_closures};
   }
 };
 

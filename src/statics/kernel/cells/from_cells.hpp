@@ -4,11 +4,16 @@
 
 namespace counterflex::kernel {
 
+/// The waypoint of a lane. The last one fills the lanes that are left.
+COUNTERFLEX_INLINE int waypoint_of(const Batch& batch, int first, int lane) {
+  return first + lane < batch.count() ? first + lane : batch.count() - 1;
+}
+
 /// Calls `visit(cell, lanes)` for every cell that one of the waypoints from `first` on has, and their lanes.
 template <class T, class Visit>
-COUNTERFLEX_INLINE void for_each_cell(const Batch& batch, int first, const StartCell* const* cells,
-                                      const Visit& visit) {
-  const auto of = [&](int l) { return cells[first + l < batch.count ? first + l : batch.count - 1]; };
+COUNTERFLEX_INLINE void for_each_cell(const Batch& batch, int first,
+                                      const std::vector<const StartCell*>& cells, const Visit& visit) {
+  const auto of = [&](int l) { return at(cells, waypoint_of(batch, first, l)); };
   for (int l = 0; l < lane_count<T>; ++l) {
     bool is_new = true;
     for (int k = 0; k < l; ++k) is_new = is_new && of(k) != of(l);
@@ -168,7 +173,7 @@ T contraction_of_cells(const Batch& batch, int first, const Work<T>& work) {
                 moment = work.load.w * (work.question.load / work.machine.length);
   const T size_squared = dot(force, force) + dot(moment, moment);
   return gather<T>([&](int l) {
-    const StartCell& cell = *batch.cells[first + l < batch.count ? first + l : batch.count - 1];
+    const StartCell& cell = *at(batch.cells, waypoint_of(batch, first, l));
     const double share = std::sqrt(lane(size_squared, l)) / load_of_cells;
     return cell.unloaded_contraction + share * (cell.contraction - cell.unloaded_contraction);
   });

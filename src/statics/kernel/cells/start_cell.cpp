@@ -65,55 +65,20 @@ std::vector<Sample> corners_about(const CellPlace& place, double length) {
   return corners;
 }
 
-/// Solutions of samples.
-struct Solutions {
-  std::vector<double> states, stress, pivots, commands, responses, contractions;
-};
-
-/// Where samples begin: a state of all of them for each machine, or cells.
-struct SampleStart {
-  const double *state = nullptr, *nominal_state = nullptr;
-  const StartCell *cell = nullptr, *kinematics = nullptr;
-};
-
-std::optional<Solutions> solve_samples(const Problem& problem, const CellPlace& place,
-                                       const std::vector<Sample>& samples, const SampleStart& start,
-                                       std::optional<Variables> response_to) {
-  const FlatMachine& machine = problem.machine();
-  std::vector<double> p, R, F;
+/// The solutions of samples, from what `batch` has: states or cells in which they begin, and the variables of
+/// responses. None where a sample is not solved.
+std::optional<Batch> solve_samples(const Problem& problem, const CellPlace& place,
+                                   const std::vector<Sample>& samples, Batch batch) {
   for (const Sample& sample : samples) {
-    p.insert(p.end(), sample.p.begin(), sample.p.end());
-    F.insert(F.end(), sample.F.begin(), sample.F.end());
+    batch.p.insert(batch.p.end(), sample.p.begin(), sample.p.end());
+    batch.F.insert(batch.F.end(), sample.F.begin(), sample.F.end());
     const Matrix3 turned = counterflex::exp_so3(sample.turn) * place.R;
-    for (int i = 0; i < 9; ++i) R.push_back(turned(i / 3, i % 3));
+    for (int i = 0; i < 9; ++i) batch.R.push_back(turned(i / 3, i % 3));
   }
-  const auto unknowns = static_cast<std::size_t>(machine.unknowns());
-  std::vector<unsigned char> accepted(samples.size());
-  const std::vector<const StartCell*> cells(samples.size(), start.cell),
-      kinematics(samples.size(), start.kinematics);
-  Solutions solutions;
-  solutions.states.resize(static_cast<std::size_t>(machine.state_size()) * samples.size());
-  solutions.stress.resize(6 * machine.elements.size() * samples.size());
-  solutions.commands.resize(12 * samples.size());
-  solutions.contractions.resize(samples.size());
-  Batch batch;
-  batch.count = static_cast<int>(samples.size());
-  batch.p = p.data(), batch.R = R.data(), batch.F = F.data(), batch.accepted = accepted.data();
-  batch.start = start.state, batch.nominal_start = start.nominal_state;
-  if (start.cell != nullptr) batch.cells = cells.data(), batch.nominal_cells = kinematics.data();
-  batch.state = solutions.states.data(), batch.stress = solutions.stress.data();
-  batch.nominal_tip = solutions.commands.data(), batch.contraction = solutions.contractions.data();
-  if (response_to) {
-    solutions.pivots.resize(unknowns * samples.size());
-    solutions.responses.resize((unknowns + 6) * static_cast<std::size_t>(response_to->count()) *
-                               samples.size());
-    batch.pivots = solutions.pivots.data();
-    batch.responses = solutions.responses.data(), batch.response_to = *response_to;
-  }
-  instance_for(samples.size()).solve(problem, start.cell != nullptr ? cell_schedule : Schedule{}, batch);
-  for (const unsigned char is_accepted : accepted)
-    if (is_accepted == 0) return std::nullopt;
-  return solutions;
+  batch.wants_states = true, batch.wants_pivots = batch.response_to.has_value();
+  solve(problem, batch.cells.empty() ? Schedule{} : cell_schedule, batch);
+  if (std::ranges::count(batch.accepted, 0) > 0) return std::nullopt;
+  return batch;
 }
 
 /// From twists about the point `c` to changes of a frame's position and of its rotation vector against
@@ -141,10 +106,10 @@ Vector6 offset_of(const CellPlace& place, const Sample& sample, const double* co
 class CellSamples {
  public:
   CellSamples(const FlatMachine& machine, const CellPlace& place, const Variables& variables,
-              const Samples& samples, const Solutions& solutions)
+              const Samples& samples, const Batch& solutions)
       : machine_(machine), place_(place), variables_(variables), samples_(samples), solutions_(solutions) {}
 
-  const double* state(int sample) const { return solutions_.states.data() + machine_.state_size() * sample; }
+  const double* state(int sample) const { return solutions_.state.data() + machine_.state_size() * sample; }
 
   Rows state_jacobian(int sample) const {
     Rows J = responses(sample).topRows(machine_.unknowns());
@@ -159,7 +124,7 @@ class CellSamples {
 
   Rows offset_jacobian(int sample) const {
     const Sample& of = at(samples_.all, sample);
-    const Pose X = get_pose(solutions_.commands.data() + 12 * sample);
+    const Pose X = get_pose(solutions_.nominal_tip.data() + 12 * sample);
     const Matrix3 R_tip = counterflex::exp_so3(of.turn) * place_.R, E = X.R * R_tip.transpose();
     Rows J = responses(sample).bottomRows(6);
     J.topRows<3>() -= skew(X.p - of.p) * J.bottomRows<3>();
@@ -268,7 +233,7 @@ class CellSamples {
   const CellPlace& place_;
   const Variables variables_;
   const Samples& samples_;
-  const Solutions& solutions_;
+  const Batch& solutions_;
   const std::vector<Term> all_terms_ = terms_of(variables_);
 };
 
@@ -325,13 +290,16 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
   const FlatMachine& machine = target.machine();
   cell.bounds = offset_bounds(cell, place.step, load_of_cells, machine.length);
   const std::vector<Sample> corners = corners_about(place, machine.length);
-  const auto solved = solve_samples(target, place, corners, {nullptr, nullptr, &cell, &kinematics}, {});
+  Batch in_cells;
+  in_cells.cells.assign(corners.size(), &cell);
+  in_cells.nominal_cells.assign(corners.size(), &kinematics);
+  const auto solved = solve_samples(target, place, corners, std::move(in_cells));
   if (!solved) {
     cell.bounds.remainder.fill(std::numeric_limits<double>::infinity());
     return;
   }
   for (std::size_t k = 0; k < corners.size(); ++k) {
-    const Vector6 found = offset_of(place, corners[k], solved->commands.data() + 12 * k);
+    const Vector6 found = offset_of(place, corners[k], solved->nominal_tip.data() + 12 * k);
     const Vector6 missed =
         remainder_margin * (found - command_offset(cell, corners[k].p, corners[k].turn, corners[k].F));
     cell.bounds.remainder[0] = std::max(cell.bounds.remainder[0], missed.head<3>().norm());
@@ -339,9 +307,9 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
       cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
   }
   // Corners are where starts miss most, but for larger loads.
-  const auto unloaded = solved->contractions.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
-  cell.contraction = *std::max_element(solved->contractions.begin(), unloaded);
-  cell.unloaded_contraction = *std::max_element(unloaded, solved->contractions.end());
+  const auto unloaded = solved->contraction.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
+  cell.contraction = *std::max_element(solved->contraction.begin(), unloaded);
+  cell.unloaded_contraction = *std::max_element(unloaded, solved->contraction.end());
 }
 
 }  // namespace
@@ -352,7 +320,8 @@ std::optional<StartCell> make_kinematics_cell(const Question& nominal, const Cel
   const Variables variables{place.turns, false};
   const Samples samples = samples_about(place, variables, machine.length);
   const Problem kinematics{.real = {}, .nominal = nominal};
-  const auto solutions = solve_samples(kinematics, place, samples.all, {nullptr, start.data()}, variables);
+  const auto solutions =
+      solve_samples(kinematics, place, samples.all, {.nominal_start = start, .response_to = variables});
   if (!solutions) return std::nullopt;
   return cell_of(machine, place, variables, {machine, place, variables, samples, *solutions});
 }
@@ -365,15 +334,16 @@ std::optional<StartCell> make_target_cell(const Question& real, const Question& 
   const Samples samples = samples_about(place, variables, machine.length);
   const Problem target{.real = real, .nominal = nominal};
   const auto solutions =
-      solve_samples(target, place, samples.all, {start.data(), kinematics.state.data()}, variables);
+      solve_samples(target, place, samples.all,
+                    {.start = start, .nominal_start = kinematics.state, .response_to = variables});
   if (!solutions) return std::nullopt;
   const CellSamples of(machine, place, variables, samples, *solutions);
   StartCell cell = cell_of(machine, place, variables, of);
   cell.stress.assign(solutions->stress.begin(),
                      solutions->stress.begin() + 6 * static_cast<std::ptrdiff_t>(machine.elements.size()));
   cell.stress_changes = of.stress_changes();
-  cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.pivots());
-  const Vector6 offset = offset_of(place, samples.all[0], solutions->commands.data());
+  cell.pivots.assign(solutions->pivots.begin(), solutions->pivots.begin() + machine.unknowns());
+  const Vector6 offset = offset_of(place, samples.all[0], solutions->nominal_tip.data());
   for (int i = 0; i < 6; ++i) at(cell.offset, i) = offset[i];
   measure_at_corners(target, place, kinematics, cell);
   return cell;

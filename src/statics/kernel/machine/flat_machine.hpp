@@ -131,8 +131,8 @@ struct FlatMachine {
   double length = 0.1;              ///< l (m)
   double stiffest = 0;              ///< k_max (N/m)
 
+  /// Joints; the twists of each node, of the platform.
   int unknowns() const { return joints + 6 * nodes + 6; }
-  int pivots() const { return unknowns(); }  ///< of the whole system, in this order; of actuators zero
   /// Joints; R row by row and p of each node, of the platform.
   int state_size() const { return joints + 12 * nodes + 12; }
 };

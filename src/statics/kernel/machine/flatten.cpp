@@ -6,7 +6,6 @@
 
 #include "counterflex/geometry/pose.hpp"
 #include "statics/kernel/equations/work.hpp"
-#include "statics/model/motion_errors.hpp"
 
 namespace counterflex::kernel {
 namespace {
@@ -83,9 +82,6 @@ struct Parts {
   Flat flat;
   std::vector<PlacedWeight> weights;
 
-  void refuse(const char* why) {
-    if (flat.why_not.empty()) flat.why_not = why;
-  }
   int add_transform(TransformProduct product) {
     flat.transforms.push_back(std::move(product));
     return static_cast<int>(flat.transforms.size()) - 1;
@@ -121,7 +117,7 @@ class SeriesFlattener {
     if (has_six_)
       close_element(-1);
     else
-      close_rigidly(series_.parts.size(), -1);
+      close_rigidly();
     write();
   }
 
@@ -155,9 +151,17 @@ class SeriesFlattener {
   }
 
   void add_joint(const Part& part) {
-    if (!part.errors.empty() && !parts_.flat.rigid) return add_erroneous_joint(part);
+    const bool rigid = parts_.flat.rigid;
     FrameStep step;
     step.kind = part.joint.kind == JointKind::prismatic ? StepKind::slide : StepKind::turn;
+    step.actuator = part.actuator;
+    if (part.kind == PartKind::actuator) at(machine_.actuator_offset, part.actuator) = part.offset;
+    if (!part.errors.empty() && !rigid) {
+      step.motion = static_cast<int>(machine_.motions.size());
+      const Vector3& axis = part.joint.axis;
+      machine_.motions.push_back({step.kind == StepKind::turn, {axis[0], axis[1], axis[2]}, part.errors});
+      return put_joint(step, part);
+    }
     step.axis = -1;
     for (int i = 0; i < 3; ++i)
       for (const double sign : {1.0, -1.0})
@@ -165,26 +169,15 @@ class SeriesFlattener {
     const bool oblique = step.axis < 0;
     const Pose turned = rotation(oblique ? z_along(part.joint.axis) : Matrix3::Identity());
     if (oblique) step.axis = 2, stretch().open.push_back({turned});
-    stretch().close();
-    step.actuator = part.actuator;
     step.passive = part.kind == PartKind::passive;
-    step.k = parts_.flat.rigid ? 0 : part.k;
-    if (!parts_.flat.rigid) step.k_change = part.k_change, step.knee = part.knee;
+    if (!rigid) step.k = part.k, step.k_change = part.k_change, step.knee = part.knee;
     machine_.has_knees = machine_.has_knees || step.k_change != 0;
     step.rest = step.passive ? part.rest : 0;
-    if (part.kind == PartKind::actuator) at(machine_.actuator_offset, part.actuator) = part.offset;
-    stretch().items.push_back({step, {}, {number_, part.column}});
+    put_joint(step, part);
     if (oblique) stretch().open.push_back({inverse(turned)});
   }
 
-  void add_erroneous_joint(const Part& part) {
-    FrameStep step;
-    step.kind = part.joint.kind == JointKind::prismatic ? StepKind::slide : StepKind::turn;
-    step.actuator = part.actuator;
-    step.motion = static_cast<int>(machine_.motions.size());
-    const Vector3& axis = part.joint.axis;
-    machine_.motions.push_back({step.kind == StepKind::turn, {axis[0], axis[1], axis[2]}, part.errors});
-    at(machine_.actuator_offset, part.actuator) = part.offset;
+  void put_joint(const FrameStep& step, const Part& part) {
     stretch().close();
     stretch().items.push_back({step, {}, {number_, part.column}});
   }
@@ -243,13 +236,13 @@ class SeriesFlattener {
     return machine_.nodes++;
   }
 
-  /// Joints without a six-element behind them: a spring K and a spring -K in series hold their end rigidly to
-  /// `node`. In tangents the second one is stiffer by a little: where the joints before it do not move in all
+  /// Joints without a six-element behind them: a spring K and a spring -K in series hold them rigidly to the
+  /// end. In tangents the second one is stiffer by a little: where the joints before it do not move in all
   /// directions the node's pivots were zero else (EQUATIONS.md, section 11).
-  void close_rigidly(std::size_t part, int node) {
-    if (parts_.flat.rigid) return close_by_spring(1, 1, node);
-    close_by_spring(1, 1, add_node(part));
-    close_by_spring(-1, 1 + closure_surplus, node);
+  void close_rigidly() {
+    if (parts_.flat.rigid) return close_by_spring(1, 1, -1);
+    close_by_spring(1, 1, add_node(series_.parts.size()));
+    close_by_spring(-1, 1 + closure_surplus, -1);
     ++machine_.rigid_closures;
   }
 
@@ -301,8 +294,7 @@ class SeriesFlattener {
     flat.count = static_cast<int>(elements_.size());
     flat.actuators = static_cast<int>(machine_.actuators.size());
     flat.actuator_count = static_cast<int>(series_.actuators.size());
-    if (flat.actuator_count > most_actuators_of_series)
-      parts_.refuse("one of its chains has too many actuators");
+    if (flat.actuator_count > most_actuators_of_series) parts_.flat.is_solvable = false;
     machine_.most_actuators = std::max(machine_.most_actuators, flat.actuator_count);
     machine_.actuators.insert(machine_.actuators.end(), series_.actuators.begin(), series_.actuators.end());
     for (Element& element : elements_) number_actuators(element);
@@ -380,31 +372,11 @@ Flat flatten(const Mechanism& mechanism, bool load_at_platform, bool rigid) {
 
 }  // namespace
 
-MotionNumbers motion_numbers(const ErrorMotion& motion, double q, double offset, double share) {
-  const Joint joint{motion.turns ? JointKind::revolute : JointKind::prismatic,
-                    Vector3(motion.axis[0], motion.axis[1], motion.axis[2])};
-  const JointMotion at = joint_motion(joint, motion.errors, q, q - offset, share);
-  MotionNumbers numbers;
-  for (std::size_t i = 0; i < 3; ++i) {
-    const auto k = static_cast<Eigen::Index>(i);
-    for (Eigen::Index j = 0; j < 3; ++j) numbers[3 * i + static_cast<std::size_t>(j)] = at.X.R(k, j);
-    numbers[9 + i] = at.X.p[k], numbers[12 + i] = at.v[k], numbers[15 + i] = at.w[k];
-  }
-  return numbers;
-}
-
 Flat flatten(const Mechanism& mechanism, bool load_at_platform) {
   return flatten(mechanism, load_at_platform, false);
 }
 Flat flatten_rigid(const Mechanism& mechanism) {
   return flatten(mechanism, false, true);
-}
-
-std::vector<Transform> transforms_at(const Flat& flat, double errors) {
-  std::vector<Transform> table;
-  for (const TransformProduct& product : flat.transforms)
-    table.push_back(transform_of(pose_of(product, errors)));
-  return table;
 }
 
 }  // namespace counterflex::kernel

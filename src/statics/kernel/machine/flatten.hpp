@@ -1,18 +1,30 @@
 #pragma once
 /// From a Model to the flat machine of the kernel, and between their states.
-#include <string>
 #include <vector>
 
 #include "counterflex/statics/nominal.hpp"
-#include "statics/kernel/machine/transform_product.hpp"
+#include "statics/kernel/machine/flat_machine.hpp"
 
 namespace counterflex::kernel {
+
+/// A rigid transform of the flat machine is a product of fixed poses and of assembly errors, of which a share
+/// acts.
+struct TransformFactor {
+  Pose X;
+  Vector3 log_R = Vector3::Zero();  ///< of an error
+  bool error = false, inverted = false;
+};
+using TransformProduct = std::vector<TransformFactor>;
+
+TransformProduct inverse_of(TransformProduct product);
+
+Transform transform_of(const Pose& X);
 
 /// A flat machine, and what of the model its parts are.
 struct Flat {
   FlatMachine machine;
-  std::string why_not;  ///< the kernel cannot solve this machine; then `machine` means nothing
-  bool rigid = false;   ///< springs, compliances and masses are left out, passive joints are free
+  bool is_solvable = true;  ///< else a chain has too many actuators, and `machine` means nothing
+  bool rigid = false;       ///< springs, compliances and masses are left out, passive joints are free
   std::vector<TransformProduct> transforms;
 
   /// The place of a number of the state in a Configuration: a column, or the frame before a part of a series.
