@@ -45,52 +45,47 @@ void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
   }
 }
 
+void LoadPlaces::raise(Peak& peak, double value, const Job& job, const Waypoint& w) const {
+  if (is_larger(value, peak.value)) peak = {value, place_of(job, w)};
+}
+
 void LoadPlaces::add_to_stretch(const Job& job, const Waypoint& w) {
   if (stretches_.empty() || in_last_ == per_stretch_) {
     if (stretches_.size() == most_load_stretches) merge_neighbours();
-    stretches_.push_back(place_of(job, w));
-    values_.push_back(value_of(job, w));
+    stretches_.push_back({value_of(job, w), place_of(job, w)});
     in_last_ = 0;
   } else {
-    LoadPlace& kept = stretches_.back();
-    const double weight = kept.at.weight + w.weight, value = value_of(job, w);
-    if (is_larger(value, values_.back())) {
-      kept = place_of(job, w);
-      values_.back() = value;
-    }
-    kept.at.weight = weight;
+    Peak& kept = stretches_.back();
+    const double weight = kept.place->at.weight + w.weight;
+    raise(kept, value_of(job, w), job, w);
+    kept.place->at.weight = weight;
   }
   ++in_last_;
 }
 
 void LoadPlaces::merge_neighbours() {
   for (std::size_t i = 0; i < most_load_stretches / 2; ++i) {
-    const LoadPlace &first = stretches_[2 * i], &second = stretches_[2 * i + 1];
-    const double weight = first.at.weight + second.at.weight;
-    const bool later = is_larger(values_[2 * i + 1], values_[2 * i]);
-    stretches_[i] = LoadPlace(later ? second : first);
-    stretches_[i].at.weight = weight;
-    values_[i] = values_[later ? 2 * i + 1 : 2 * i];
+    const Peak &first = stretches_[2 * i], &second = stretches_[2 * i + 1];
+    const double weight = first.place->at.weight + second.place->at.weight;
+    stretches_[i] = Peak(is_larger(second.value, first.value) ? second : first);
+    stretches_[i].place->at.weight = weight;
   }
   stretches_.resize(most_load_stretches / 2);
-  values_.resize(most_load_stretches / 2);
   per_stretch_ *= 2;
 }
 
 // The deviation before counts at the places of the original path.
 void LoadPlaces::add_peaks(const Job& job, const Waypoint& w) {
-  const auto raise = [&](Peak& peak, double value) {
-    if (!is_larger(value, peak.value)) return;
-    peak = {value, place_of(job, w)};
-    peak.place->at.weight = 0;  // its stretch has it
-  };
-  raise(force_, w.wrench.head<3>().norm());
-  raise(moment_, w.wrench.tail<3>().norm());
-  if (w.place) raise(before_, w.before.head<3>().norm());
+  raise(force_, w.wrench.head<3>().norm(), job, w);
+  raise(moment_, w.wrench.tail<3>().norm(), job, w);
+  if (w.place) raise(before_, w.before.head<3>().norm(), job, w);
+  for (Peak* peak : {&force_, &moment_, &before_})
+    if (peak->place) peak->place->at.weight = 0;  // its stretch has it
 }
 
 std::vector<LoadPlace> LoadPlaces::places() const {
-  std::vector<LoadPlace> all = stretches_;
+  std::vector<LoadPlace> all;
+  for (const Peak& stretch : stretches_) all.push_back(*stretch.place);
   for (const Peak* peak : {&force_, &moment_, &before_})
     if (peak->place) all.push_back(*peak->place);
   const auto before = [](const LoadPlace& a, const LoadPlace& b) { return a.number < b.number; };
@@ -100,6 +95,14 @@ std::vector<LoadPlace> LoadPlaces::places() const {
   return all;
 }
 
+ForwardRequest request_at(const LoadPlace& place) {
+  return {.model = place.model,
+          .target = place.target,
+          .F = place.load.F,
+          .R = commanded_orientation(place.at),
+          .directions = place.at.directions};
+}
+
 LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, int threads,
                        const StartTables* starts) {
   std::vector<LoadsAtPlace> solved(places.size());
@@ -107,11 +110,7 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
     PlaceSolver solver(starts, places[begin].load.at_platform);
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count))
-      requests.push_back({.model = place.model,
-                          .target = place.target,
-                          .F = place.load.F,
-                          .R = commanded_orientation(place.at),
-                          .directions = place.at.directions});
+      requests.push_back(request_at(place));
     std::vector<ForwardAnswer> answers(count);
     solver.forwards(requests, answers, StopAt::end);
     for (std::size_t i = 0; i < count; ++i) {
@@ -120,7 +119,7 @@ LoadsAlong solve_loads(const Model& base, const std::vector<LoadPlace>& places, 
       const Equilibrium loaded = solver.equilibrium(requests[i], answers[i]);
       if (loaded.status == Status::converged)
         solved[begin + i] = {place.at.s, place.at.line,
-                             loads_without_tool(base.mechanism, *place.model, loaded.configuration, {})};
+                             loads(base.mechanism, *place.model, loaded.configuration)};
     }
   });
   LoadsAlong along;
@@ -145,16 +144,15 @@ std::vector<NominalResult> solve_nominal(const std::vector<LoadPlace>& places, i
 
 std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* starts) {
   PlaceSolver solver(starts, place.load.at_platform);
-  std::array<TipPosition, 1> position{wanted_at(*place.model, place.at)};
-  std::array<WantedPose, 1> wanted;
-  solver.wanted(position, wanted);
-  if (wanted[0].status != Status::converged) return std::nullopt;
+  const TipPosition position = wanted_at(*place.model, place.at);
+  const WantedPose wanted = solver.wanted(position);
+  if (wanted.status != Status::converged) return std::nullopt;
   const Vector3 original = place.target - place.at.correction.head<3>();
   std::array<ForwardPlace, 1> solved{{{place.model,
-                                       {original, position[0].R_MT},
+                                       {original, position.R_MT},
                                        {place.target, commanded_orientation(place.at)},
                                        place.load.F,
-                                       wanted[0].X_MT,
+                                       wanted.X_MT,
                                        place.at.directions}}};
   std::array<Waypoint, 1> at{place.at};
   add_causes(solver, solved, at);
@@ -169,11 +167,8 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
     std::vector<ForwardRequest> requests;
     for (const LoadPlace& place : std::span(places).subspan(begin, count)) {
       positions.push_back(wanted_at(*place.model, place.at));
-      requests.push_back({.model = place.model,
-                          .target = place.target,
-                          .F = factor * place.load.F,
-                          .R = commanded_orientation(place.at),
-                          .directions = place.at.directions});
+      requests.push_back(request_at(place));
+      requests.back().F *= factor;
     }
     std::vector<WantedPose> wanted(count);
     std::vector<ForwardAnswer> answers(count);

@@ -99,16 +99,13 @@ bool slice_holds(const CornerSolving& c, std::span<const LoadPlace> places) {
     const Model* model = c.longer != nullptr && place.tool == q.tool ? c.longer : place.model;
     TipPosition wanted = wanted_at(*model, place.at);
     wanted.p_MT = frame.wanted * wanted.p_MT;
-    std::optional<Matrix3> R = commanded_orientation(place.at);
-    if (R) R = Matrix3(frame.commanded.R * *R);
     if (wanted.R_MT) wanted.R_MT = Matrix3(frame.wanted.R * *wanted.R_MT);
     positions.push_back(wanted);
-    requests.push_back({.model = model,
-                        .target = frame.commanded * place.target,
-                        .F = place.load.F,
-                        .within_travel = true,
-                        .R = R,
-                        .directions = place.at.directions});
+    ForwardRequest& request = requests.emplace_back(request_at(place));
+    request.model = model;
+    request.target = frame.commanded * place.target;
+    request.within_travel = true;
+    if (request.R) request.R = Matrix3(frame.commanded.R * *request.R);
   }
   std::vector<WantedPose> wanted(places.size());
   std::vector<ForwardAnswer> answers(places.size());

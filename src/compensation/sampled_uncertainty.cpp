@@ -56,12 +56,6 @@ std::vector<double> drawn_values(const std::vector<Parameter>& all, const KnownP
   }
 }
 
-/// What the samples of one slice show at each place.
-struct PlaceSums {
-  double sum = 0, squares = 0;
-  std::size_t count = 0, inside = 0;
-};
-
 struct Place {
   const LoadPlace* of = nullptr;
   Pose wanted;
@@ -79,9 +73,7 @@ std::vector<Place> banded_places(const std::vector<LoadPlace>& places) {
   const std::size_t count = std::min(known.size(), most_places);
   for (std::size_t k = 0; k < count; ++k) {
     const LoadPlace& place = *known[k * known.size() / count];
-    const TipPosition position = wanted_at(*place.model, place.at);
-    WantedPose wanted;
-    solver.wanted({&position, 1}, {&wanted, 1});
+    const WantedPose wanted = solver.wanted(wanted_at(*place.model, place.at));
     if (wanted.status != Status::converged) continue;
     const Vector3 d = place.at.after.head<3>();
     const Matrix3 C = place.at.covariance->topLeftCorner<3, 3>();
@@ -103,6 +95,36 @@ std::vector<Vector3> drawn_datums(const std::vector<WorkFrame>& frames, const Mo
         frame.touched->axes.asDiagonal() * (touched.d + repeatability * normal.next3()) - frame.datum_shift;
   }
   return all;
+}
+
+/// By place: u'(d - d0) of one sample, where it was solved.
+using SampledPlaces = std::vector<std::optional<double>>;
+
+/// Compares all samples with the bands of their places.
+void compare_with_bands(const std::vector<SampledPlaces>& found, const std::vector<Place>& at,
+                        SampledBands& bands) {
+  std::size_t inside = 0, count = 0;
+  std::vector<double> ratios;
+  for (std::size_t i = 0; i < at.size(); ++i) {
+    double sum = 0, squares = 0;
+    std::size_t solved = 0;
+    for (const SampledPlaces& sample : found) {
+      if (!sample[i]) continue;
+      sum += *sample[i];
+      squares += *sample[i] * *sample[i];
+      ++solved;
+      if (std::abs(*sample[i]) <= at[i].band) ++inside;
+    }
+    count += solved;
+    if (solved < 2 || at[i].band == 0) continue;
+    const double n = static_cast<double>(solved), mean = sum / n;
+    ratios.push_back(2 * std::sqrt(std::max(squares / n - mean * mean, 0.0)) / at[i].band);
+  }
+  bands.unsolved = found.size() * at.size() - count;
+  if (count > 0) bands.covered_percent = 100.0 * static_cast<double>(inside) / static_cast<double>(count);
+  if (ratios.empty()) return;
+  bands.least_ratio = *std::ranges::min_element(ratios);
+  bands.largest_ratio = *std::ranges::max_element(ratios);
 }
 
 }  // namespace
@@ -131,7 +153,7 @@ SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools
                           std::size_t samples, int threads) {
   const std::vector<Place> at = banded_places(places);
   SampledBands bands{samples, at.size()};
-  std::vector<std::vector<std::optional<double>>> found(samples);  // by sample and place: u'(d - d0)
+  std::vector<SampledPlaces> found(samples);
   for_each_index(samples, threads, [&](std::size_t k) {
     const DrawnMachine drawn = drawn_machine(machine, k);
     const Model model = prepare(drawn.machine);
@@ -141,63 +163,25 @@ SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools
     const std::vector<Vector3> datums =
         drawn_datums(frames, model, machine.uncertainty->repeatability, normal);
     for (const Place& place : at) {
-      const Waypoint& w = place.of->at;
-      const ForwardRequest request{.model = &model_with(model, &with, place.of->tool),
-                                   .target = place.of->target,
-                                   .F = drawn.force * place.of->load.F,
-                                   .R = commanded_orientation(w),
-                                   .directions = w.directions};
-      ForwardAnswer answer;
-      solver.forwards({&request, 1}, {&answer, 1});
+      ForwardRequest request = request_at(*place.of);
+      request.model = &model_with(model, &with, place.of->tool);
+      request.F *= drawn.force;
+      const ForwardAnswer answer = solver.forward(request);
       const Vector3 own =
           machine.uncertainty->repeatability * normal.next3() - drawn.tool_length * answer.X_MT.R.col(2);
       std::optional<double>& result = found[k].emplace_back();
       if (answer.status == Status::converged)
         result = place.u.dot(deviation(answer.X_MT, place.wanted).head<3>() + own - datums[place.of->frame] -
-                             w.after.head<3>());
+                             place.of->at.after.head<3>());
     }
   });
-  std::vector<PlaceSums> sums(at.size());
-  for (const auto& sample : found)
-    for (std::size_t i = 0; i < at.size(); ++i) {
-      if (!sample[i]) {
-        ++bands.unsolved;
-        continue;
-      }
-      sums[i].sum += *sample[i];
-      sums[i].squares += *sample[i] * *sample[i];
-      ++sums[i].count;
-      if (std::abs(*sample[i]) <= at[i].band) ++sums[i].inside;
-    }
-  std::size_t inside = 0, count = 0;
-  bool first = true;
-  for (std::size_t i = 0; i < at.size(); ++i) {
-    inside += sums[i].inside;
-    count += sums[i].count;
-    if (sums[i].count < 2 || at[i].band == 0) continue;
-    const auto n = static_cast<double>(sums[i].count);
-    const double mean = sums[i].sum / n;
-    const double ratio = 2 * std::sqrt(std::max(sums[i].squares / n - mean * mean, 0.0)) / at[i].band;
-    bands.least_ratio = first ? ratio : std::min(bands.least_ratio, ratio);
-    bands.largest_ratio = first ? ratio : std::max(bands.largest_ratio, ratio);
-    first = false;
-  }
-  if (count > 0) bands.covered_percent = 100.0 * static_cast<double>(inside) / static_cast<double>(count);
+  compare_with_bands(found, at, bands);
   return bands;
 }
 
 std::optional<TipCovariance> solve_covariance(const LoadPlace& place, const TipUncertainties& uncertainties,
                                               const StartTables* starts) {
-  PlaceSolver solver(starts, place.load.at_platform);
-  const ForwardRequest request{.model = place.model,
-                               .target = place.target,
-                               .F = place.load.F,
-                               .R = commanded_orientation(place.at),
-                               .directions = place.at.directions};
-  ForwardAnswer answer;
-  solver.forwards({&request, 1}, {&answer, 1});
-  if (answer.status != Status::converged) return std::nullopt;
-  const Equilibrium found = solver.equilibrium(request, answer);
+  const Equilibrium found = PlaceSolver(starts, place.load.at_platform).equilibrium(request_at(place));
   if (found.status != Status::converged) return std::nullopt;
   const TipUncertainty& uncertainty = uncertainties.by_model.at(place.model);
   StaticsWork work = uncertainty.work();

@@ -20,12 +20,8 @@ struct MoveSignificance {
   bool may_fade = false;  ///< one of its ends may stay, and the other not
 };
 
-bool is_any(const std::array<bool, 3>& axes) {
-  return axes[0] || axes[1] || axes[2];
-}
-
 MoveSignificance before_samples(const Move& move, const Segment* segment, bool doubtful) {
-  if (move.handling != Handling::own || move.group != 0 || is_any(move.fixed)) return {};
+  if (move.handling != Handling::own || move.group != 0 || any_axis(move.fixed)) return {};
   if (segment != nullptr) {
     const bool fades_inside = !segment->wanted.arc && move.may_split && !move.corners;
     return {Significance::may_stay, takes_all_words(move) && (fades_inside || !segment->cutting)};

@@ -8,12 +8,8 @@ namespace {
 /// Nothing where the machine does not reach the place.
 DatumTangents datum_tangents(const TouchedPlace& touched, const Model& model,
                              const TipUncertainty& uncertainty) {
-  PlaceSolver solver(nullptr, false);
-  const ForwardRequest request{.model = &model, .target = touched.p_MT};
-  ForwardAnswer answer;
-  solver.forwards({&request, 1}, {&answer, 1});
-  if (answer.status != Status::converged) return {};
-  const Equilibrium found = solver.equilibrium(request, answer);
+  const Equilibrium found =
+      PlaceSolver(nullptr, false).equilibrium({.model = &model, .target = touched.p_MT});
   if (found.status != Status::converged) return {};
   StaticsWork work = uncertainty.work();
   return uncertainty.of_datum(found.configuration, touched.axes, work);

@@ -40,14 +40,11 @@ std::span<const PathPlace> PathPlaces::of(const std::string& offset) const {
 
 UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts) {
   PlaceSolver solver(starts, false);
-  const ForwardRequest request{.model = at.model, .target = at.p_MT, .R = at.R_MT};
-  WantedPose wanted;
-  ForwardAnswer actual;
-  solver.wanted({&at, 1}, {&wanted, 1});
-  if (wanted.status == Status::converged) solver.forwards({&request, 1}, {&actual, 1});
-  const Status status = wanted.status == Status::converged ? actual.status : wanted.status;
-  if (status != Status::converged) return {status};
-  return {status, actual.X_MT.p - wanted.X_MT.p};
+  const WantedPose wanted = solver.wanted(at);
+  if (wanted.status != Status::converged) return {wanted.status};
+  const ForwardAnswer actual = solver.forward({.model = at.model, .target = at.p_MT, .R = at.R_MT});
+  if (actual.status != Status::converged) return {actual.status};
+  return {Status::converged, actual.X_MT.p - wanted.X_MT.p};
 }
 
 std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,

@@ -13,10 +13,6 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 enum class MoveHandling { corrected, held, grouped, left };
 
-bool any(const std::array<bool, 3>& axes) {
-  return axes[0] || axes[1] || axes[2];
-}
-
 void add_length(const Move& move, CutLength& cut) {
   if (move.motion != Motion::feed) return;
   if (all_known(move.known_start) && all_known(move.known_end))
@@ -62,7 +58,7 @@ class MotionPlanner::Window {
     const Move* next = nullptr;
     for (std::size_t m = program_.moves.size(); m-- > 0;) {
       const Move& move = program_.moves[m];
-      if (move.handling == Handling::own && !any(move.fixed) && all_known(move.known_end)) next = &move;
+      if (move.handling == Handling::own && !any_axis(move.fixed) && all_known(move.known_end)) next = &move;
       next_known_[m] = next;
     }
   }
@@ -89,7 +85,7 @@ class MotionPlanner::Window {
 
   MoveHandling handling_of(std::size_t m) const {
     const Move& move = program_.moves[m];
-    if (any(move.fixed)) return MoveHandling::left;
+    if (any_axis(move.fixed)) return MoveHandling::left;
     if (move.handling == Handling::group) return MoveHandling::grouped;
     if (move.handling == Handling::held) return MoveHandling::held;
     if (all_known(move.known_end)) return MoveHandling::corrected;
@@ -118,7 +114,7 @@ class MotionPlanner::Window {
       case MoveHandling::left:
         ++plan_.not_corrected;
         add_length(move, plan_.left_cut);
-        add_length(move, row_of(plan_.left_rows, why_left(move), move.line, any(move.fixed)).cut);
+        add_length(move, row_of(plan_.left_rows, why_left(move), move.line, any_axis(move.fixed)).cut);
         break;
     }
     count_kind(move);
@@ -130,7 +126,7 @@ class MotionPlanner::Window {
   }
 
   std::string why_left(const Move& move) const {
-    if (any(move.fixed))
+    if (any_axis(move.fixed))
       return reason_at(move).value_or("moves to a place that an edit of the text cannot shift");
     std::string axes;
     for (std::size_t axis = 0; axis < 3; ++axis)

@@ -49,19 +49,19 @@ void check_near(const Vector3& actual, const Vector3& expected, double tolerance
 
 double largest_moment(const PoseAnalysis& pose) {
   double result = 0;
-  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.moment_max);
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain[LoadKind::moment]);
   return result;
 }
 
 double largest_group_moment(const PoseAnalysis& pose) {
   double result = 0;
-  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.group_moment_max);
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain[LoadKind::group_moment]);
   return result;
 }
 
 double largest_spring_rotation(const PoseAnalysis& pose) {
   double result = 0;
-  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain.spring_rotation_max);
+  for (const ChainLoads& chain : pose.chains) result = std::max(result, chain[LoadKind::spring_rotation]);
   return result;
 }
 
@@ -198,11 +198,12 @@ TEST_CASE("an elastic tool does not count in the loads of a pose, and every chai
     REQUIRE(pose.chains.size() == rigid.chains.size());
     for (std::size_t i = 0; i < pose.chains.size(); ++i) {
       CHECK(pose.chains[i].name == rigid.chains[i].name);
-      CHECK(pose.chains[i].moment_max == doctest::Approx(rigid.chains[i].moment_max).epsilon(0.01));
-      CHECK(pose.chains[i].spring_translation_max ==
-            doctest::Approx(rigid.chains[i].spring_translation_max).epsilon(0.01));
-      CHECK(pose.chains[i].spring_rotation_max ==
-            doctest::Approx(rigid.chains[i].spring_rotation_max).epsilon(0.01));
+      CHECK(pose.chains[i][LoadKind::moment] ==
+            doctest::Approx(rigid.chains[i][LoadKind::moment]).epsilon(0.01));
+      CHECK(pose.chains[i][LoadKind::spring_translation] ==
+            doctest::Approx(rigid.chains[i][LoadKind::spring_translation]).epsilon(0.01));
+      CHECK(pose.chains[i][LoadKind::spring_rotation] ==
+            doctest::Approx(rigid.chains[i][LoadKind::spring_rotation]).epsilon(0.01));
     }
   }
 }

@@ -15,8 +15,8 @@ namespace {
 ChainLoads made_up_loads(const std::string& name, double force, double turn_deg) {
   ChainLoads loads;
   loads.name = name;
-  loads.spring_force_max = force;
-  loads.spring_rotation_max = turn_deg * deg;
+  loads[LoadKind::spring_force] = force;
+  loads[LoadKind::spring_rotation] = turn_deg * deg;
   return loads;
 }
 
@@ -140,8 +140,8 @@ TEST_CASE("what rounding leaves of zero is no load, and has no line") {
 
 TEST_CASE("the loads over the path are lists of equal length with seven digits per number") {
   LoadsAlong along = made_up_along();
-  along.places[0].chains[1].spring_force_max = 1.0 / 3e4;
-  along.places[2].chains[1].spring_force_max = 123456.789;
+  along.places[0].chains[1][LoadKind::spring_force] = 1.0 / 3e4;
+  along.places[2].chains[1][LoadKind::spring_force] = 123456.789;
   const std::string json = loads_json(path_loads(along, {}));
   CHECK(contains(json, "{\"s_mm\":[0.0,12.5,20.0],\"line\":[3,4,5],\"chains\":[{\"name\":\"left\","));
   CHECK(contains(json, "\"spring_force_max_N\":[3.333333e-05,40.0,123456.8]"));
@@ -170,8 +170,7 @@ TEST_CASE("loads along a path equal those of analyze at the commanded targets") 
     REQUIRE(along.places[i].chains.size() == pose.chains.size());
     for (std::size_t c = 0; c < pose.chains.size(); ++c)
       for (const LoadKind kind : load_kinds)
-        CHECK(value_of(along.places[i].chains[c], kind) ==
-              doctest::Approx(value_of(pose.chains[c], kind)).epsilon(1e-7));
+        CHECK(along.places[i].chains[c][kind] == doctest::Approx(pose.chains[c][kind]).epsilon(1e-7));
   }
 }
 

@@ -54,20 +54,21 @@ class LoadPlaces {
   const LoadPlace* worst_before() const { return before_.place ? &*before_.place : nullptr; }
 
  private:
+  /// A kept place, and the value for which it is kept.
   struct Peak {
     double value = 0;
     std::optional<LoadPlace> place{};
   };
 
   double value_of(const Job& job, const Waypoint& w) const;
+  void raise(Peak& peak, double value, const Job& job, const Waypoint& w) const;
   void add_to_stretch(const Job& job, const Waypoint& w);
   void add_peaks(const Job& job, const Waypoint& w);
   LoadPlace place_of(const Job& job, const Waypoint& w) const;
   void merge_neighbours();
 
   KeptPlace kept_;
-  std::vector<LoadPlace> stretches_;
-  std::vector<double> values_;  ///< of the stretches
+  std::vector<Peak> stretches_;
   std::size_t per_stretch_ = 1, in_last_ = 0, count_ = 0;
   Peak force_, moment_, before_;
 };

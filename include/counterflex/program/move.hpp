@@ -194,6 +194,11 @@ enum class Handling : std::uint8_t {
 /// Side of a contour in the plane X Y on which the cutter goes: G41 and RL, G42 and RR.
 enum class CutterSide : std::uint8_t { none, left, right };
 
+/// Whether it is so on one of three axes, at least.
+inline bool any_axis(const std::array<bool, 3>& axes) {
+  return axes[0] || axes[1] || axes[2];
+}
+
 /// Whether the position is known on all three axes.
 inline bool all_known(const std::array<bool, 3>& known) {
   return known[0] && known[1] && known[2];

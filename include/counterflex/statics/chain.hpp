@@ -1,6 +1,7 @@
 #pragma once
 /// Single chains: the equilibrium at a given end pose (2) and the loaded stiffness (3)-(5), the platform held
 /// at a pose (1), loads in joints and springs, and everything that is known of each chain at an equilibrium.
+#include <array>
 #include <optional>
 #include <string>
 #include <vector>
@@ -82,27 +83,17 @@ struct ChainLoads {
   std::string name;
   /// Exerted by the platform on the chain's end, at the reference point, axes of M.
   Vector6 wrench = Vector6::Zero();
-  double moment_max = 0;
-  double spring_translation_max = 0;
-  double spring_rotation_max = 0;
-  double spring_force_max = 0;
-  double spring_torque_max = 0;
-  double group_moment_max = 0;
-  double passive_change_max = 0;
-};
+  std::array<double, load_kind_count> largest{};
 
-/// Of every chain of `model`. A tool that bends is part of the chain to whose end it is attached.
-std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage);
+  double& operator[](LoadKind kind) { return largest[static_cast<std::size_t>(kind)]; }
+  double operator[](LoadKind kind) const { return largest[static_cast<std::size_t>(kind)]; }
+};
 
 /// Of every chain of the machine that `base` is without a tool, at a configuration of `model`, the same
 /// machine with one: a tool that bends has no load here, and chains that it has made the branches of one
 /// chain (`with_tool`) are chains again. The wrenches on their ends refer to `base`'s reference point, at its
 /// position in the deflected machine.
-std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
-                                           const Configuration& configuration, const Stage& stage);
-
-/// One of them (SI).
-double value_of(const ChainLoads& loads, LoadKind kind);
+std::vector<ChainLoads> loads(const Mechanism& base, const Model& model, const Configuration& configuration);
 
 /// One coordinate: a joint, a compliance, or one component of a spring. SI.
 struct CoordinateDetail {

@@ -32,6 +32,11 @@ inline bool has_reversals(const Model& model) {
 
 /// Joint value less commanded value of each actuator (m, rad): minus its sign times half of its reversal.
 /// Empty for a machine without reversals.
-Eigen::VectorXd lag_of(const Mechanism& mechanism, const Directions& directions);
+inline Eigen::VectorXd lag_of(const Mechanism& mechanism, const Directions& directions) {
+  Eigen::VectorXd lag(static_cast<Eigen::Index>(mechanism.reversal.size()));
+  for (std::size_t a = 0; a < mechanism.reversal.size(); ++a)
+    lag[static_cast<Eigen::Index>(a)] = -0.5 * directions.of(a) * mechanism.reversal[a];
+  return lag;
+}
 
 }  // namespace counterflex

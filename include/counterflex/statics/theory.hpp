@@ -31,7 +31,7 @@ LinearResult linear_deviation(const Model& model, const Configuration& nominal, 
 /// branches do not resist stays zero. Empty for a chain with a group whose branches have no stiffness of
 /// their own.
 std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal,
-                                              const Stage& stage, StaticsWork& work);
+                                              StaticsWork& work);
 
 /// The linear target: `X_MT` with `dt_T` taken from its controlled components.
 Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear);

@@ -33,9 +33,9 @@ void Emitter::emit_move(std::size_t m, Index s) {
     state_.turn.setZero();
   }
   const bool known = all_known(move.known_start) && all_known(move.known_end);
-  const bool carries = state_.doubtful && state_.correction_known && pending_.empty() &&
-                       (state_.holds[0] || state_.holds[1] || state_.holds[2]);
-  if (move.fixed[0] || move.fixed[1] || move.fixed[2]) return emit_fixed(m);
+  const bool carries =
+      state_.doubtful && state_.correction_known && pending_.empty() && any_axis(state_.holds);
+  if (any_axis(move.fixed)) return emit_fixed(m);
   if (move.group != 0) return emit_group(m, s);
   if (move.handling == Handling::held) return emit_rigid(m, s, Kind::shifted);
   if (move.cycle) return emit_hole(m);

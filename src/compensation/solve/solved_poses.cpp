@@ -77,8 +77,7 @@ class SliceOfPoses {
       if (nominal.status == Status::converged) X_MT = tip(model_.mechanism, nominal.configuration);
       return nominal.status;
     }
-    WantedPose wanted;
-    solver_.wanted({&at, 1}, {&wanted, 1});
+    const WantedPose wanted = solver_.wanted(at);
     X_MT = wanted.X_MT;
     return wanted.status;
   }

@@ -209,15 +209,28 @@ void PlaceSolver::machine_forwards(std::span<const ForwardRequest> requests, std
   }
 }
 
+WantedPose PlaceSolver::wanted(const TipPosition& at) {
+  WantedPose answer;
+  wanted({&at, 1}, {&answer, 1});
+  return answer;
+}
+
+ForwardAnswer PlaceSolver::forward(const ForwardRequest& request) {
+  ForwardAnswer answer;
+  forwards({&request, 1}, {&answer, 1});
+  return answer;
+}
+
+Equilibrium PlaceSolver::equilibrium(const ForwardRequest& request) {
+  const ForwardAnswer answer = forward(request);
+  return answer.status == Status::converged ? equilibrium(request, answer) : Equilibrium{};
+}
+
 Equilibrium PlaceSolver::equilibrium(const ForwardRequest& request, const ForwardAnswer& answer) {
   const Model& model = *request.model;
   const TipPosition at{request.model, request.target, request.R};
   NominalResult commanded = std::move(nominals({&at, 1}).front());
-  if (commanded.status == Status::converged && has_reversals(model)) {
-    const Eigen::VectorXd rho = actuator_values(model.mechanism, commanded.configuration);
-    commanded =
-        nominal_forward(model, commanded.configuration, rho + lag_of(model.mechanism, request.directions));
-  }
+  if (commanded.status == Status::converged) commanded = behind(model, commanded, request.directions);
   if (commanded.status != Status::converged) return {};
   const Load load{request.F, at_platform_};
   StaticsWork& work = of(model).scratch();

@@ -44,6 +44,11 @@ struct ForwardRequest {
   const Eigen::VectorXd* rho = nullptr;  ///< the actuators of the command (m, rad), if they are known
 };
 
+struct LoadPlace;
+
+/// What is commanded at a place, and the wrench on the tool there.
+ForwardRequest request_at(const LoadPlace& place);
+
 /// Where the tip is for a command.
 struct ForwardAnswer {
   Status status = Status::not_converged;
@@ -81,6 +86,10 @@ class PlaceSolver {
   void forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
                 StopAt stop = StopAt::first_failure);
 
+  /// The same of one.
+  WantedPose wanted(const TipPosition& at);
+  ForwardAnswer forward(const ForwardRequest& request);
+
   /// Pose of the loaded part's frame under the wrench on the tool at a place of the cut; identity where no
   /// fixture deflects.
   Pose part(const Model& model, const Vector6& F, const Pose& X_MT);
@@ -88,6 +97,7 @@ class PlaceSolver {
   /// The equilibrium behind the answer to a request under the whole load, which has `R` or home's
   /// orientation: not converged where it is not found.
   Equilibrium equilibrium(const ForwardRequest& request, const ForwardAnswer& answer);
+  Equilibrium equilibrium(const ForwardRequest& request);
 
   /// The nominal configuration with the tip at a position, followed to there: a singular pose on the way is
   /// found. Its controlled orientation is the program's or else home's.

@@ -120,7 +120,7 @@ void find_weakest(const Matrix6& K, double length, PoseAnalysis& result) {
 void describe(const Mechanism& machine, const Model& model, const Solved& solved, const Load& load,
               StaticsWork& work, PoseAnalysis& result) {
   result.deviation = solved.deviation;
-  result.chains = loads_without_tool(machine, model, solved.configuration, everything);
+  result.chains = loads(machine, model, solved.configuration);
   const ManipulatorStiffness sum = stiffness(model, solved.stiff, solved.stiff_stage, work);
   result.K = sum.K;
   result.stiffness_available = sum.available;

@@ -32,15 +32,12 @@ Json corrected_json(const PoseAnalysis& pose, const AnalysisReport& report) {
 }
 
 Json chain_json(const ChainLoads& chain) {
-  return {{"name", chain.name},
-          {"wrench_N_Nm", numbers(chain.wrench, analysis_digits)},
-          {"moment_max_Nm", number(chain.moment_max, analysis_digits)},
-          {"spring_translation_max_mm", number(chain.spring_translation_max / mm, analysis_digits)},
-          {"spring_rotation_max_deg", number(chain.spring_rotation_max / deg, analysis_digits)},
-          {"spring_force_max_N", number(chain.spring_force_max, analysis_digits)},
-          {"spring_torque_max_Nm", number(chain.spring_torque_max, analysis_digits)},
-          {"group_moment_max_Nm", number(chain.group_moment_max, analysis_digits)},
-          {"passive_change_max_deg", number(chain.passive_change_max / deg, analysis_digits)}};
+  Json json = {{"name", chain.name}, {"wrench_N_Nm", numbers(chain.wrench, analysis_digits)}};
+  for (const LoadKind kind : load_kinds) {
+    const LoadName& name = name_of(kind);
+    json[std::string(name.key)] = number(chain[kind] / name.si, analysis_digits);
+  }
+  return json;
 }
 
 Json chains_json(const std::vector<ChainLoads>& chains) {

@@ -57,12 +57,12 @@ std::string deviations(const AnalysisReport& report) {
 }
 
 std::string chain_row(std::size_t index, const ChainLoads& chain) {
-  return fmt::format("  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
-                     number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2),
-                     number_text(chain.moment_max, 2), number_text(chain.group_moment_max, 2),
-                     number_text(chain.spring_translation_max / mm, 3),
-                     number_text(chain.spring_rotation_max / deg, 3), number_text(chain.spring_force_max, 2),
-                     number_text(chain.spring_torque_max, 2), number_text(chain.passive_change_max / deg, 3));
+  return fmt::format(
+      "  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
+      number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number_text(chain[LoadKind::moment], 2),
+      number_text(chain[LoadKind::group_moment], 2), number_text(chain[LoadKind::spring_translation] / mm, 3),
+      number_text(chain[LoadKind::spring_rotation] / deg, 3), number_text(chain[LoadKind::spring_force], 2),
+      number_text(chain[LoadKind::spring_torque], 2), number_text(chain[LoadKind::passive_change] / deg, 3));
 }
 
 std::string chain_loads(const AnalysisReport& report) {

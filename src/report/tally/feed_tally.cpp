@@ -6,10 +6,6 @@
 namespace counterflex {
 namespace {
 
-bool any_axis(const std::array<bool, 3>& axes) {
-  return axes[0] || axes[1] || axes[2];
-}
-
 bool rests(const Move& move) {
   return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) &&
          all_known(move.known_start) && all_known(move.known_end) && move.start_mm == move.end_mm;

@@ -52,7 +52,7 @@ std::string four_digits(double value) {
 }  // namespace
 
 double shown_value(const ChainLoads& loads, LoadKind kind) {
-  const double value = value_of(loads, kind) / name_of(kind).si;
+  const double value = loads[kind] / name_of(kind).si;
   return value < no_load ? 0 : value;
 }
 

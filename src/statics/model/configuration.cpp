@@ -1,4 +1,5 @@
 #include "counterflex/statics/mechanism.hpp"
+#include "statics/model/walk.hpp"
 
 namespace counterflex {
 namespace {
@@ -15,15 +16,13 @@ SeriesState zero_state(const Series& series) {
   return state;
 }
 
-// Calls visit(part, value of its column) for every actuator in a series and in its groups.
-template <class State, class Visit>
-void for_each_actuator(const Series& series, State& state, const Visit& visit) {
-  for (const Part& part : series.parts) {
-    if (part.kind == PartKind::actuator) visit(part, state.x[part.column]);
-    if (part.kind != PartKind::group) continue;
-    for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-      for_each_actuator(series.groups[part.group].branches[b], state.groups[part.group].branches[b], visit);
-  }
+// Calls visit(actuator, value) for every actuator.
+template <class Configuration, class Visit>
+void for_each_actuator(const Mechanism& mechanism, Configuration& configuration, const Visit& visit) {
+  for_each_series(mechanism.chains, configuration.chains, [&](const Series& series, auto& state) {
+    for (const Part& part : series.parts)
+      if (part.kind == PartKind::actuator) visit(part.actuator, state.x[part.column]);
+  });
 }
 
 }  // namespace
@@ -36,17 +35,13 @@ Configuration zero_configuration(const Mechanism& mechanism) {
 
 Eigen::VectorXd actuator_values(const Mechanism& mechanism, const Configuration& configuration) {
   Eigen::VectorXd rho(mechanism.travel.size());
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
-    for_each_actuator(mechanism.chains[i], configuration.chains[i],
-                      [&](const Part& part, const double& value) { rho[part.actuator] = value; });
+  for_each_actuator(mechanism, configuration, [&](int actuator, double value) { rho[actuator] = value; });
   return rho;
 }
 
 void set_actuator_values(const Mechanism& mechanism, const Eigen::VectorXd& rho,
                          Configuration& configuration) {
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
-    for_each_actuator(mechanism.chains[i], configuration.chains[i],
-                      [&](const Part& part, double& value) { value = rho[part.actuator]; });
+  for_each_actuator(mechanism, configuration, [&](int actuator, double& value) { value = rho[actuator]; });
 }
 
 }  // namespace counterflex

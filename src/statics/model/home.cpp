@@ -4,25 +4,19 @@
 
 #include "counterflex/statics/equilibrium.hpp"
 #include "statics/model/part.hpp"
+#include "statics/model/walk.hpp"
 #include "statics/solve/kinematics.hpp"
 
 namespace counterflex {
 namespace {
 
-// Calls visit(part) for every actuator in a series and in its groups.
-template <class Series, class Visit>
-void for_each_actuator_part(Series& series, const Visit& visit) {
-  for (auto& part : series.parts)
-    if (part.kind == PartKind::actuator) visit(part);
-  for (auto& group : series.groups)
-    for (auto& branch : group.branches) for_each_actuator_part(branch, visit);
-}
-
-void mark_nominal(SeriesState& state) {
-  state.x_nominal = state.x;
-  state.F.setZero();
-  for (GroupState& group : state.groups)
-    for (SeriesState& branch : group.branches) mark_nominal(branch);
+// Calls visit(part) for every actuator.
+template <class Chains, class Visit>
+void for_each_actuator_part(Chains& chains, const Visit& visit) {
+  for_each_series(chains, [&](auto& series) {
+    for (auto& part : series.parts)
+      if (part.kind == PartKind::actuator) visit(part);
+  });
 }
 
 // Joints at their home values, groups where their first branch ends. Returns where the series ends.
@@ -71,27 +65,28 @@ struct FrameDistances {
   }
 };
 
-double stiffest(const Series& series, double length) {
+// The largest stiffness of a joint or spring (N/m).
+double stiffest(const std::vector<Series>& chains, double length) {
   double largest = 0;
-  for (const Part& part : series.parts) {
-    const bool angular = part.joint.kind == JointKind::revolute;
-    if (part.kind == PartKind::passive || part.kind == PartKind::compliance)
-      largest = std::max(largest, (part.k + std::max(part.k_change, 0.0)) / (angular ? length * length : 1));
-    if (part.kind == PartKind::spring)
-      largest = std::max({largest, part.K.topLeftCorner<3, 3>().cwiseAbs().maxCoeff(),
-                          part.K.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff() / (length * length)});
-  }
-  for (const SeriesGroup& group : series.groups)
-    for (const Series& branch : group.branches) largest = std::max(largest, stiffest(branch, length));
+  for_each_series(chains, [&](const Series& series) {
+    for (const Part& part : series.parts) {
+      const bool angular = part.joint.kind == JointKind::revolute;
+      if (part.kind == PartKind::passive || part.kind == PartKind::compliance)
+        largest =
+            std::max(largest, (part.k + std::max(part.k_change, 0.0)) / (angular ? length * length : 1));
+      if (part.kind == PartKind::spring)
+        largest = std::max({largest, part.K.topLeftCorner<3, 3>().cwiseAbs().maxCoeff(),
+                            part.K.bottomRightCorner<3, 3>().cwiseAbs().maxCoeff() / (length * length)});
+    }
+  });
   return largest;
 }
 
-void relax_at_home(Series& series, const SeriesState& home) {
-  for (Part& part : series.parts)
-    if (part.kind == PartKind::passive && part.rest_at_home) part.rest = home.x[part.column];
-  for (std::size_t g = 0; g < series.groups.size(); ++g)
-    for (std::size_t b = 0; b < series.groups[g].branches.size(); ++b)
-      relax_at_home(series.groups[g].branches[b], home.groups[g].branches[b]);
+void relax_at_home(Model& model) {
+  for_each_series(model.mechanism.chains, model.home.chains, [](Series& series, const SeriesState& home) {
+    for (Part& part : series.parts)
+      if (part.kind == PartKind::passive && part.rest_at_home) part.rest = home.x[part.column];
+  });
 }
 
 // A controller whose zero was set at home, under the machine's own weight: finds the actuators' offsets with
@@ -114,19 +109,20 @@ void hold_home(Model& model) {
 }  // namespace
 
 void mark_nominal(Configuration& configuration) {
-  for (SeriesState& chain : configuration.chains) mark_nominal(chain);
+  for_each_series(configuration.chains, [](SeriesState& state) {
+    state.x_nominal = state.x;
+    state.F.setZero();
+  });
 }
 
 Eigen::VectorXd zero_offsets(const Mechanism& mechanism) {
   Eigen::VectorXd offsets(static_cast<Eigen::Index>(mechanism.travel.size()));
-  for (const Series& chain : mechanism.chains)
-    for_each_actuator_part(chain, [&](const Part& part) { offsets[part.actuator] = part.offset; });
+  for_each_actuator_part(mechanism.chains, [&](const Part& part) { offsets[part.actuator] = part.offset; });
   return offsets;
 }
 
 void set_zero_offsets(const Eigen::VectorXd& offsets, Mechanism& mechanism) {
-  for (Series& chain : mechanism.chains)
-    for_each_actuator_part(chain, [&](Part& part) { part.offset = offsets[part.actuator]; });
+  for_each_actuator_part(mechanism.chains, [&](Part& part) { part.offset = offsets[part.actuator]; });
 }
 
 Model prepare(const Machine& machine) {
@@ -140,14 +136,12 @@ Model prepare(const Machine& machine) {
 
 void settle_at_home(Model& model) {
   mark_nominal(model.home);
+  relax_at_home(model);
   FrameDistances distances;
-  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
-    relax_at_home(model.mechanism.chains[i], model.home.chains[i]);
+  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i)
     distances.add(model.mechanism.chains[i], model.home.chains[i], {}, model.home.X_MP.p);
-  }
   model.mechanism.length = std::max(0.1, distances.count ? distances.sum / distances.count : 0.0);
-  for (const Series& chain : model.mechanism.chains)
-    model.mechanism.stiffest = std::max(model.mechanism.stiffest, stiffest(chain, model.mechanism.length));
+  model.mechanism.stiffest = stiffest(model.mechanism.chains, model.mechanism.length);
 }
 
 }  // namespace counterflex

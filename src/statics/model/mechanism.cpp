@@ -5,6 +5,7 @@
 #include "statics/model/home.hpp"
 #include "statics/model/motion_errors.hpp"
 #include "statics/model/part.hpp"
+#include "statics/model/walk.hpp"
 
 namespace counterflex {
 namespace {
@@ -125,8 +126,6 @@ void note_spacing(const Series& series, Mechanism& mechanism) {
     if (const std::size_t orders = part.errors.harmonics.size() / 2; orders > 0)
       least = std::min(least, spacing_of_harmonic / static_cast<double>(orders));
   }
-  for (const SeriesGroup& group : series.groups)
-    for (const Series& branch : group.branches) note_spacing(branch, mechanism);
 }
 
 }  // namespace
@@ -146,29 +145,22 @@ Mechanism compile(const Machine& machine) {
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));
-  for (const Series& chain : mechanism.chains) note_spacing(chain, mechanism);
+  for_each_series(mechanism.chains, [&](const Series& series) { note_spacing(series, mechanism); });
   const std::vector<std::string> names = actuator_names(machine);
   for (std::size_t i = 0; i < names.size(); ++i) mechanism.travel[i].name = names[i];
   return mechanism;
 }
 
-namespace {
-
-bool has_preload(const Series& series) {
+bool has_preload(const Mechanism& mechanism) {
   const auto is_preloaded = [](const Part& part) {
     return (part.kind == PartKind::spring && !part.theta_0.isZero(0)) ||
            (part.kind == PartKind::passive && part.k != 0);
   };
-  const auto in_branches = [](const SeriesGroup& group) {
-    return std::ranges::any_of(group.branches, [](const Series& branch) { return has_preload(branch); });
-  };
-  return std::ranges::any_of(series.parts, is_preloaded) || std::ranges::any_of(series.groups, in_branches);
-}
-
-}  // namespace
-
-bool has_preload(const Mechanism& mechanism) {
-  return std::ranges::any_of(mechanism.chains, [](const Series& chain) { return has_preload(chain); });
+  bool any = false;
+  for_each_series(mechanism.chains, [&](const Series& series) {
+    any = any || std::ranges::any_of(series.parts, is_preloaded);
+  });
+  return any;
 }
 
 bool controls(const Mechanism& mechanism, Component component) {

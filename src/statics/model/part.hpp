@@ -24,35 +24,13 @@ Vector6 spring_deflection(const Part& spring, const SeriesState& state, const St
 /// for a compliance.
 double joint_deflection(const Part& joint, const SeriesState& state, const Stage& stage);
 
-/// Its force and stiffness there.
-inline JointForce<double> force_of_joint(const Part& joint, const SeriesState& state, const Stage& stage) {
-  const double x = joint_deflection(joint, state, stage);
+/// Its force and stiffness at a deflection.
+inline JointForce<double> force_of_joint(const Part& joint, double x) {
   if (joint.k_change == 0) return {joint.k * x, joint.k};
   return joint_force(joint.k, joint.k_change, joint.knee, x);
 }
-
-/// One coordinate of a part (m or rad; N or N m).
-struct PartCoordinate {
-  int component = -1;  ///< of a spring, 0 to 5; else -1
-  bool angular = false;
-  double value = 0;
-  double change = 0;  ///< from the nominal configuration
-  double load = 0;    ///< dE/dx; zero for an actuator
-};
-
-/// Calls visit(PartCoordinate) for every coordinate of a joint, a compliance or a spring.
-template <class Visit>
-void visit_coordinates(const Part& part, const SeriesState& state, const Stage& stage, const Visit& visit) {
-  if (part.kind == PartKind::spring) {
-    const Vector6 theta = state.x.segment<6>(part.column),
-                  tau = part.K * spring_deflection(part, state, stage);
-    for (int k = 0; k < 6; ++k) visit(PartCoordinate{k, k >= 3, theta[k], theta[k], tau[k]});
-  } else if (part.column >= 0 && part.kind != PartKind::group) {
-    const double x = state.x[part.column];
-    const double load = part.kind == PartKind::actuator ? 0 : force_of_joint(part, state, stage).force;
-    visit(PartCoordinate{-1, part.joint.kind == JointKind::revolute, x, x - state.x_nominal[part.column],
-                         load});
-  }
+inline JointForce<double> force_of_joint(const Part& joint, const SeriesState& state, const Stage& stage) {
+  return force_of_joint(joint, joint_deflection(joint, state, stage));
 }
 
 }  // namespace counterflex

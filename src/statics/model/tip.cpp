@@ -5,23 +5,18 @@
 #include "counterflex/statics/nominal.hpp"
 
 namespace counterflex {
-namespace {
-
-int count_fixed(const Mechanism& mechanism) {
-  return mechanism.controlled.empty() ? 6 : static_cast<int>(mechanism.controlled.size());
-}
-
-int fixed_component(const Mechanism& mechanism, int i) {
-  return mechanism.controlled.empty() ? i
-                                      : static_cast<int>(mechanism.controlled[static_cast<std::size_t>(i)]);
-}
-
-}  // namespace
 
 std::vector<int> fixed_components(const Mechanism& mechanism) {
+  if (mechanism.controlled.empty()) return {0, 1, 2, 3, 4, 5};
   std::vector<int> list;
-  for (int i = 0; i < count_fixed(mechanism); ++i) list.push_back(fixed_component(mechanism, i));
+  for (const Component c : mechanism.controlled) list.push_back(static_cast<int>(c));
   return list;
+}
+
+Vector6 fixed_part(const Mechanism& mechanism, const Vector6& deviation) {
+  Vector6 part = Vector6::Zero();
+  for (const int c : fixed_components(mechanism)) part[c] = deviation[c];
+  return part;
 }
 
 Matrix6 tip_from_platform(const Mechanism& mechanism, const Pose& X_MP) {
@@ -35,13 +30,10 @@ Controlled tip_equations(const Mechanism& mechanism, const Pose& X_MP, const Pos
   // p_T = p_P + r:  dp_T = v - [r]x w;   Log(Exp(w) R_actual R_target') = phi + J_l(phi)^-1 w
   Matrix6 all = tip_from_platform(mechanism, X_MP);
   all.bottomRightCorner<3, 3>() = left_jacobian_inverse(error.tail<3>());
-  const int count = count_fixed(mechanism);
-  Controlled tip{decltype(Controlled::rows)(count, 6), decltype(Controlled::rhs)(count)};
-  for (int i = 0; i < count; ++i) {
-    const int c = fixed_component(mechanism, i);
-    tip.rows.row(i) = ((1 / pose[c]) * all.row(c)).cwiseProduct(pose.transpose());
-    tip.rhs[i] = -error[c] / pose[c];
-  }
+  const std::vector<int> fixed = fixed_components(mechanism);
+  Controlled tip;
+  tip.rows = pose.cwiseInverse()(fixed).asDiagonal() * all(fixed, Eigen::all) * pose.asDiagonal();
+  tip.rhs = -error(fixed).cwiseQuotient(pose(fixed));
   return tip;
 }
 

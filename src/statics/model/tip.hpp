@@ -25,4 +25,7 @@ Matrix6 tip_from_platform(const Mechanism& mechanism, const Pose& X_MP);
 /// Which components the target fixes: the controlled ones, or all six.
 std::vector<int> fixed_components(const Mechanism& mechanism);
 
+/// These components of a deviation; the others are zero.
+Vector6 fixed_part(const Mechanism& mechanism, const Vector6& deviation);
+
 }  // namespace counterflex

@@ -11,7 +11,6 @@ const Units kinematic_units{1.0};  // angles scaled by 1 m
 
 Kinematics::Kinematics(const Mechanism& mechanism, Moving moving) : mechanism_(mechanism), moving_(moving) {
   for (const Series& chain : mechanism.chains) works_.push_back(make_work(chain));
-  decomposition_.setThreshold(rank_threshold);
 }
 
 Closures Kinematics::closures(const Configuration& configuration, const Units& units) {
@@ -52,7 +51,7 @@ void Kinematics::linearise(const Equations& equations) {
   Eigen::MatrixXd J = Eigen::MatrixXd::Zero(C.rows() + targets, static_cast<Eigen::Index>(moving.size()));
   J.topRows(C.rows()) = C(Eigen::all, moving);
   if (equations.tip) J.bottomRightCorner(targets, 6) = equations.tip->rows;
-  decomposition_.compute(J);
+  decomposition_ = decomposed(J);
   is_linearised_ = true;
 }
 

@@ -40,7 +40,7 @@ class Kinematics {
   Moving moving_;
   std::vector<SeriesWork> works_;
   bool is_linearised_ = false;
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition_;
+  Decomposition decomposition_;
 };
 
 }  // namespace counterflex

@@ -24,10 +24,8 @@ bool is_jump(const Mechanism& mechanism, const ActuatorJacobian& jacobian, const
              const Pose& from, const Pose& to) {
   if (jacobian.J.rows() != jacobian.J.cols()) return false;
   const Vector6 all = difference(to, from);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(jacobian.J);
-  Eigen::VectorXd predicted = solved(decomposition, Eigen::VectorXd(all(fixed_components(mechanism))));
+  Eigen::VectorXd predicted =
+      solved(decomposed(jacobian.J), Eigen::VectorXd(all(fixed_components(mechanism))));
   Eigen::VectorXd surplus = drho - predicted;
   double longest = 0;
   for (Eigen::Index a = 0; a < drho.size(); ++a) {
@@ -65,9 +63,7 @@ ActuatorJacobian jacobian_of(const Mechanism& mechanism, Kinematics& held, const
   for (int i = 0; i < static_cast<int>(closures.variables.size()); ++i)
     if (closures.variables[i].actuator >= 0) commanded[closures.variables[i].actuator] = i;
   const Eigen::MatrixXd J_free = closures.C(Eigen::all, held.columns(closures));
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(J_free);
+  const Decomposition decomposition = decomposed(J_free);
   const Eigen::MatrixXd motion = -solved(decomposition, Eigen::MatrixXd(closures.C(Eigen::all, commanded)));
   const Controlled at_tip = tip_equations(mechanism, nominal.X_MP, tip(mechanism, nominal), units);
   ActuatorJacobian result{at_tip.rows * motion.bottomRows(6), 1};

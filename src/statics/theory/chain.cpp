@@ -20,6 +20,15 @@ double part_energy(const Part& part, const SeriesState& state, const Stage& stag
   return joint_energy(part.k, part.k_change, part.knee, q);
 }
 
+// A chain at a state; its gap is to `X_MP`.
+SeriesWork& evaluated(const Model& model, std::size_t i, const SeriesState& state, const Pose& X_MP,
+                      const Stage& stage, Hessians hessians, StaticsWork& work) {
+  SeriesWork& chain = work.impl().chains[i];
+  evaluate(model.mechanism.chains[i], state, X_MP, stage, acting_gravity(model.mechanism, stage), hessians,
+           chain);
+  return chain;
+}
+
 }  // namespace
 
 ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage,
@@ -27,11 +36,10 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
   const Series& series = model.mechanism.chains[i];
   const Units units{model.mechanism.length};
   const Hessians hessians = method == ChainMethod::newton ? Hessians::yes : Hessians::no;
-  SeriesWork& chain = work.impl().chains[i];
   ChainEquilibrium result;
   double step = std::numeric_limits<double>::infinity();
   for (; result.iterations < most_linear_steps; ++result.iterations) {
-    evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), hessians, chain);
+    SeriesWork& chain = evaluated(model, i, state, X_MP, stage, hessians, work);
     Residual residual;
     add_residual(series, state, chain, units, residual);
     if (!std::isfinite(residual.closure + residual.force)) return result;
@@ -53,9 +61,7 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
                                const Stage& stage, StaticsWork& work) {
   const Series& series = model.mechanism.chains[i];
   const Units units{model.mechanism.length};
-  SeriesWork& chain = work.impl().chains[i];
-  const Pose X_MP = chain_end(model, i, state, stage, work);
-  evaluate(series, state, X_MP, stage, acting_gravity(model.mechanism, stage), Hessians::yes, chain);
+  SeriesWork& chain = evaluated(model, i, state, {}, stage, Hessians::yes, work);
   ChainStiffness result;
   result.available = condense(series, units, chain);
   if (!result.available) return result;
@@ -85,9 +91,7 @@ double elastic_energy(const Series& series, const SeriesState& state, const Stag
 
 Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesState& state,
                                const Stage& stage, StaticsWork& work) {
-  SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
-           chain);
+  const SeriesWork& chain = evaluated(model, i, state, {}, stage, Hessians::no, work);
   Eigen::MatrixXd J(6, chain.v.cols());
   J << chain.v, chain.w;
   return J;
@@ -95,21 +99,13 @@ Eigen::MatrixXd chain_jacobian(const Model& model, std::size_t i, const SeriesSt
 
 Eigen::MatrixXd chain_hessian(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                               StaticsWork& work) {
-  SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
-           chain);
-  const Eigen::MatrixXd K = chain.A;
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::yes,
-           chain);
-  return K - chain.A;
+  const Eigen::MatrixXd K = evaluated(model, i, state, {}, stage, Hessians::no, work).A;
+  return K - evaluated(model, i, state, {}, stage, Hessians::yes, work).A;
 }
 
 Pose chain_end(const Model& model, std::size_t i, const SeriesState& state, const Stage& stage,
                StaticsWork& work) {
-  SeriesWork& chain = work.impl().chains[i];
-  evaluate(model.mechanism.chains[i], state, {}, stage, acting_gravity(model.mechanism, stage), Hessians::no,
-           chain);
-  return chain.end;
+  return evaluated(model, i, state, {}, stage, Hessians::no, work).end;
 }
 
 }  // namespace counterflex

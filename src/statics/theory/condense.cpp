@@ -3,7 +3,7 @@
 
 #include "statics/model/part.hpp"
 #include "statics/model/tolerances.hpp"
-#include "statics/theory/weights.hpp"
+#include "statics/theory/series.hpp"
 
 namespace counterflex {
 namespace {

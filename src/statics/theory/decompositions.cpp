@@ -8,9 +8,9 @@ template void Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>::computeIn
 
 namespace counterflex {
 
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& C) {
   Eigen::ColPivHouseholderQR<Eigen::MatrixXd> qr;
-  qr.setThreshold(threshold);
+  qr.setThreshold(rank_threshold);
   qr.compute(C.transpose());
   const auto nullity = C.cols() - qr.rank();
   Eigen::MatrixXd Z = Eigen::MatrixXd::Zero(C.cols(), nullity);
@@ -20,13 +20,18 @@ Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold) {
   return Z;
 }
 
-Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
-                       const Eigen::MatrixXd& B) {
+Decomposition decomposed(const Eigen::MatrixXd& A) {
+  Decomposition decomposition;
+  decomposition.setThreshold(rank_threshold);
+  decomposition.compute(A);
+  return decomposition;
+}
+
+Eigen::MatrixXd solved(const Decomposition& A, const Eigen::MatrixXd& B) {
   return A.solve(B);
 }
 
-Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
-                       const Eigen::VectorXd& b) {
+Eigen::VectorXd solved(const Decomposition& A, const Eigen::VectorXd& b) {
   return A.solve(b);
 }
 

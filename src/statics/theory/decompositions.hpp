@@ -16,15 +16,17 @@ extern template Eigen::JacobiSVD<Eigen::MatrixXd>& Eigen::JacobiSVD<Eigen::Matri
 
 namespace counterflex {
 
-/// An orthonormal basis, as columns, of the vectors x with C x = 0; the limit of zero is that of Eigen's QR
-/// of C'.
-Eigen::MatrixXd null_space(const Eigen::MatrixXd& C, double threshold);
+/// An orthonormal basis, as columns, of the vectors x with C x = 0; pivots of Eigen's QR of C' below
+/// `rank_threshold` of the largest are zero.
+Eigen::MatrixXd null_space(const Eigen::MatrixXd& C);
+
+/// A decomposition of `A` that takes pivots below `rank_threshold` of the largest for zero.
+using Decomposition = Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>;
+Decomposition decomposed(const Eigen::MatrixXd& A);
 
 /// Solutions of minimum norm: calls of Eigen's own `solve`.
-Eigen::MatrixXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
-                       const Eigen::MatrixXd& B);
-Eigen::VectorXd solved(const Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd>& A,
-                       const Eigen::VectorXd& b);
+Eigen::MatrixXd solved(const Decomposition& A, const Eigen::MatrixXd& B);
+Eigen::VectorXd solved(const Decomposition& A, const Eigen::VectorXd& b);
 
 /// The inverse of a stiffness or a compliance M; empty where D M D has a pivot of zero, D the diagonal matrix
 /// of `units`.

@@ -125,12 +125,14 @@ State critical_between(const Follower& follower, State stable, State unstable) {
   return stable;
 }
 
-// From the state without the force through `displacements`, which grow in size. Whether all were found.
-bool follow_side(const Follower& follower, const State& free, const std::vector<double>& displacements,
-                 ForceCurve& curve) {
+// From the state without the force to one side, through those of `displacements`, which grow in size. Whether
+// all were found.
+bool follow_side(const Follower& follower, const State& free, double side,
+                 const std::vector<double>& displacements, ForceCurve& curve) {
   State now = free;
   bool stable = true;
   for (const double displacement : displacements) {
+    if (!(side * displacement > 0)) continue;
     auto next = followed(follower, now, displacement);
     if (!next) return false;
     curve.points.push_back(follower.point(*next));
@@ -157,23 +159,15 @@ ForceCurve force_curve(const Model& model, const Configuration& nominal, const C
     curve.status = Status::not_converged;
     return curve;
   }
-  std::vector<double> below, above;
-  bool with_free = false;
-  for (int i = 0; i <= request.steps; ++i) {
-    const double d =
-        i == request.steps ? request.to : request.from + i * (request.to - request.from) / request.steps;
-    if (d == 0)
-      with_free = true;
-    else
-      (d < 0 ? below : above).push_back(d);
-  }
-  for (auto* side : {&below, &above})
-    std::sort(side->begin(), side->end(), [](double a, double b) { return std::abs(a) < std::abs(b); });
-  if (with_free) curve.points.push_back(follower.point(free));
-  for (const auto* side : {&below, &above})
-    if (!follow_side(follower, free, *side, curve)) curve.status = Status::not_converged;
-  std::sort(curve.points.begin(), curve.points.end(),
-            [](const CurvePoint& a, const CurvePoint& b) { return a.displacement < b.displacement; });
+  std::vector<double> displacements;
+  for (int i = 0; i < request.steps; ++i)
+    displacements.push_back(request.from + i * (request.to - request.from) / request.steps);
+  displacements.push_back(request.to);
+  std::ranges::sort(displacements, {}, [](double d) { return std::abs(d); });
+  if (displacements.front() == 0) curve.points.push_back(follower.point(free));
+  for (const double side : {-1.0, 1.0})
+    if (!follow_side(follower, free, side, displacements, curve)) curve.status = Status::not_converged;
+  std::ranges::sort(curve.points, {}, &CurvePoint::displacement);
   return curve;
 }
 

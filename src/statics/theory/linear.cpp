@@ -14,27 +14,22 @@ constexpr Stage errors_alone{.errors = 1, .load = 0, .preload = 0, .gravity = 0}
 // the controller's zero holds against the weights moves the end likewise.
 Vector6 own_eps(const Series& series, const SeriesState& nominal, const Stage& stage,
                 const SeriesWork& work) {
-  const Pose& end = work.end;
-  const double factor = stage.errors;
   Vector6 eps = Vector6::Zero();
+  const auto add = [&](double factor, const Vector3& v, const Vector3& w, const Vector3& p) {
+    eps.head<3>() += factor * (v + w.cross(work.end.p - p));
+    eps.tail<3>() += factor * w;
+  };
   Pose X;
   for (const Part& part : series.parts) {
-    if (part.kind == PartKind::error) {
-      const Vector3 w = factor * (X.R * part.log_R);
-      eps.head<3>() += factor * (X.R * part.X.p) + w.cross(end.p - X.p);
-      eps.tail<3>() += w;
-    }
+    const Pose X_after = X * part_pose(part, nominal, nominal_stage);
+    if (part.kind == PartKind::error) add(stage.errors, X.R * part.X.p, X.R * part.log_R, X.p);
     if (!part.errors.empty()) {
-      const Pose X_after = X * part_pose(part, nominal, nominal_stage);
-      const Vector6 e = factor * difference(X * part_pose(part, nominal, errors_alone), X_after);
-      eps.head<3>() += e.head<3>() + e.tail<3>().cross(end.p - X_after.p);
-      eps.tail<3>() += e.tail<3>();
+      const Vector6 e = difference(X * part_pose(part, nominal, errors_alone), X_after);
+      add(stage.errors, e.head<3>(), e.tail<3>(), X_after.p);
     }
-    if (part.kind == PartKind::actuator) {
-      eps.head<3>() += stage.gravity * part.offset * work.v.col(part.column);
-      eps.tail<3>() += stage.gravity * part.offset * work.w.col(part.column);
-    }
-    X = X * part_pose(part, nominal, nominal_stage);
+    if (part.kind == PartKind::actuator)
+      add(stage.gravity * part.offset, work.v.col(part.column), work.w.col(part.column), work.end.p);
+    X = X_after;
   }
   return eps;
 }
@@ -108,22 +103,20 @@ std::optional<Vector6> group_eps(const std::vector<Series>& branches, const Unit
   const auto sum = aggregate(branches, units, works);
   if (!sum) return std::nullopt;
   const Vector6 pose = units.of_pose();
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(pose.asDiagonal() * sum->K * pose.asDiagonal() / units.energy());
   const Eigen::VectorXd x =
-      solved(decomposition, Eigen::VectorXd(-pose.cwiseProduct(sum->dF) / units.energy()));
+      solved(decomposed(pose.asDiagonal() * sum->K * pose.asDiagonal() / units.energy()),
+             Eigen::VectorXd(-pose.cwiseProduct(sum->dF) / units.energy()));
   return pose.cwiseProduct(Vector6(x));
 }
 
 }  // namespace
 
 std::vector<std::optional<Vector6>> chain_eps(const Model& model, const Configuration& nominal,
-                                              const Stage& stage, StaticsWork& work) {
-  evaluate_linear(model, nominal, {stage.errors, 0, 0, 0}, work.impl());
+                                              StaticsWork& work) {
+  evaluate_linear(model, nominal, errors_alone, work.impl());
   std::vector<std::optional<Vector6>> all;
   for (std::size_t i = 0; i < nominal.chains.size(); ++i)
-    all.push_back(series_eps(model.mechanism.chains[i], nominal.chains[i], {stage.errors, 0, 0, 0},
+    all.push_back(series_eps(model.mechanism.chains[i], nominal.chains[i], errors_alone,
                              {model.mechanism.length}, work.impl().chains[i]));
   return all;
 }
@@ -144,9 +137,7 @@ LinearResult linear_deviation(const Model& model, const Configuration& nominal, 
 }
 
 Pose linear_target(const Model& model, const Pose& X_MT, const LinearResult& linear) {
-  Vector6 shift = Vector6::Zero();
-  for (int c : fixed_components(model.mechanism)) shift[c] = -linear.dt_T[c];
-  return moved(X_MT, shift);
+  return moved(X_MT, -fixed_part(model.mechanism, linear.dt_T));
 }
 
 }  // namespace counterflex

@@ -3,10 +3,37 @@
 #include <optional>
 
 #include "counterflex/statics/chain.hpp"
+#include "counterflex/statics/theory.hpp"
 #include "statics/model/part.hpp"
 
 namespace counterflex {
 namespace {
+
+constexpr Stage everything{};
+
+// Calls visit(CoordinateDetail) for every coordinate of a joint, a compliance or a spring.
+template <class Visit>
+void visit_coordinates(const Part& part, const SeriesState& state, const Visit& visit) {
+  if (part.kind == PartKind::spring) {
+    const Vector6 theta = state.x.segment<6>(part.column),
+                  tau = part.K * spring_deflection(part, state, everything);
+    for (int k = 0; k < 6; ++k)
+      visit(CoordinateDetail{.kind = part.kind,
+                             .component = k,
+                             .angular = k >= 3,
+                             .value = theta[k],
+                             .change = theta[k],
+                             .load = tau[k]});
+  } else if (part.column >= 0 && part.kind != PartKind::group) {
+    const double x = state.x[part.column];
+    visit(CoordinateDetail{
+        .kind = part.kind,
+        .angular = part.joint.kind == JointKind::revolute,
+        .value = x,
+        .change = x - state.x_nominal[part.column],
+        .load = part.kind == PartKind::actuator ? 0 : force_of_joint(part, state, everything).force});
+  }
+}
 
 double largest(const Vector3& v) {
   return v.cwiseAbs().maxCoeff();
@@ -17,124 +44,128 @@ void raise(double& maximum, double value) {
 }
 
 // Orientation of the frame before the first spring, in the start frame of the series.
-std::optional<Matrix3> first_spring_axes(const Series& series, const SeriesState& state, const Stage& stage) {
+std::optional<Matrix3> first_spring_axes(const Series& series, const SeriesState& state) {
   Pose X;
   for (const Part& part : series.parts) {
     if (part.kind == PartKind::spring) return X.R;
-    X = X * part_pose(part, state, stage);
+    X = X * part_pose(part, state, everything);
   }
   return std::nullopt;
 }
 
-void add_coordinate(PartKind kind, const PartCoordinate& c, ChainLoads& loads) {
-  if (kind == PartKind::passive && c.angular) raise(loads.passive_change_max, c.change);
-  if (kind != PartKind::spring && kind != PartKind::compliance) return;
-  raise(c.angular ? loads.spring_rotation_max : loads.spring_translation_max, c.value);
-  raise(c.angular ? loads.spring_torque_max : loads.spring_force_max, c.load);
+void add_coordinate(const CoordinateDetail& c, ChainLoads& loads) {
+  if (c.kind == PartKind::passive && c.angular) raise(loads[LoadKind::passive_change], c.change);
+  if (c.kind != PartKind::spring && c.kind != PartKind::compliance) return;
+  raise(c.angular ? loads[LoadKind::spring_rotation] : loads[LoadKind::spring_translation], c.value);
+  raise(c.angular ? loads[LoadKind::spring_torque] : loads[LoadKind::spring_force], c.load);
 }
 
-void add_group(const SeriesGroup& group, const GroupState& state, const Stage& stage, ChainLoads& loads) {
+void add_group(const SeriesGroup& group, const GroupState& state, ChainLoads& loads) {
   Vector6 F = Vector6::Zero();
   for (const SeriesState& branch : state.branches) F += branch.F;
-  const auto axes = first_spring_axes(group.branches[0], state.branches[0], stage);
+  const auto axes = first_spring_axes(group.branches[0], state.branches[0]);
   const Vector3 moment = F.tail<3>();
-  raise(loads.group_moment_max, largest(axes ? Vector3(axes->transpose() * moment) : moment));
+  raise(loads[LoadKind::group_moment], largest(axes ? Vector3(axes->transpose() * moment) : moment));
 }
 
 // The parts in the first `columns` columns.
-void add_series(const Series& series, int columns, const SeriesState& state, const Stage& stage,
-                ChainLoads& loads) {
+void add_series(const Series& series, int columns, const SeriesState& state, ChainLoads& loads) {
   for (const Part& part : series.parts) {
     if (part.column >= columns) continue;
-    visit_coordinates(part, state, stage,
-                      [&](const PartCoordinate& c) { add_coordinate(part.kind, c, loads); });
+    visit_coordinates(part, state, [&](const CoordinateDetail& c) { add_coordinate(c, loads); });
     if (part.kind != PartKind::group) continue;
-    add_group(series.groups[part.group], state.groups[part.group], stage, loads);
+    add_group(series.groups[part.group], state.groups[part.group], loads);
     for (std::size_t b = 0; b < state.groups[part.group].branches.size(); ++b) {
       const Series& branch = series.groups[part.group].branches[b];
-      add_series(branch, branch.columns, state.groups[part.group].branches[b], stage, loads);
+      add_series(branch, branch.columns, state.groups[part.group].branches[b], loads);
     }
   }
 }
 
-// `arm`: from the chain's end to the reference point, axes of M.
-ChainLoads chain_loads(const Series& series, int columns, const SeriesState& state, const Vector3& arm,
-                       const Stage& stage) {
-  ChainLoads chain;
-  chain.name = series.name;
-  chain.wrench = state.F;
-  chain.wrench.tail<3>() -= arm.cross(Vector3(state.F.head<3>()));
-  chain.moment_max = largest(chain.wrench.tail<3>());
-  add_series(series, columns, state, stage, chain);
-  return chain;
-}
-
-// Of `chains`, as far as they are those of `base`.
-std::vector<ChainLoads> chains_loads(const std::vector<Series>& chains, const std::vector<Series>& base,
-                                     const std::vector<SeriesState>& states, const Vector3& arm,
-                                     const Stage& stage) {
-  std::vector<ChainLoads> all;
-  for (std::size_t i = 0; i < states.size(); ++i)
-    all.push_back(chain_loads(chains[i], base[i].columns, states[i], arm, stage));
-  return all;
-}
-
-Vector3 arm_of(const Model& model, const Configuration& configuration) {
-  return configuration.X_MP.R * model.mechanism.p_EP;
-}
-
-// From the end of a series to where its first `parts` parts end, axes of its start frame.
-Vector3 arm_to_part(const Series& series, std::size_t parts, const SeriesState& state, const Stage& stage) {
+// From where the first `parts` parts of a series end to its end, axes of its start frame.
+Vector3 arm_behind(const Series& series, std::size_t parts, const SeriesState& state) {
   Pose X;
   Vector3 p = Vector3::Zero();
   for (std::size_t i = 0; i <= series.parts.size(); ++i) {
     if (i == parts) p = X.p;
-    if (i < series.parts.size()) X = X * part_pose(series.parts[i], state, stage);
+    if (i < series.parts.size()) X = X * part_pose(series.parts[i], state, everything);
   }
-  return p - X.p;
+  return X.p - p;
 }
+
+// Of `series` as far as it is `base`: a tool's parts follow those of its chain.
+ChainLoads chain_loads(const Series& base, const Series& series, const SeriesState& state) {
+  ChainLoads chain;
+  chain.name = series.name;
+  chain.wrench = wrench_at(state.F, arm_behind(series, base.parts.size(), state));
+  chain[LoadKind::moment] = largest(chain.wrench.tail<3>());
+  add_series(series, base.columns, state, chain);
+  return chain;
+}
+
+// Fills the coordinates of a chain.
+struct Collector {
+  ChainDetail& detail;
+
+  void series(const Series& series, const SeriesState& state, const std::string& path) {
+    int number = 0;
+    for (const Part& part : series.parts) {
+      if (part.kind == PartKind::mass) continue;
+      const std::string element = path + std::to_string(++number);
+      if (part.kind == PartKind::group) group(series, part, state, element);
+      if (part.column < 0 || part.kind == PartKind::group) continue;
+      if (path.empty()) list_row(part);
+      visit_coordinates(part, state, [&](CoordinateDetail c) {
+        c.element = element;
+        detail.coordinates.push_back(std::move(c));
+      });
+    }
+  }
+
+  void group(const Series& series, const Part& part, const SeriesState& state, const std::string& element) {
+    const auto& branches = series.groups[part.group].branches;
+    for (std::size_t b = 0; b < branches.size(); ++b)
+      this->series(branches[b], state.groups[part.group].branches[b], element + "/" + branches[b].name + "/");
+  }
+
+  // Rows of K_Cq and K_Ctheta are of the chain's own columns.
+  void list_row(const Part& part) {
+    const std::size_t next = detail.coordinates.size();
+    if (part.kind == PartKind::passive) detail.passive.push_back(next);
+    if (part.kind == PartKind::compliance) detail.elastic.push_back(next);
+    for (std::size_t k = 0; part.kind == PartKind::spring && k < 6; ++k) detail.elastic.push_back(next + k);
+  }
+};
 
 }  // namespace
 
-std::vector<ChainLoads> loads(const Model& model, const Configuration& configuration, const Stage& stage) {
-  return chains_loads(model.mechanism.chains, model.mechanism.chains, configuration.chains,
-                      arm_of(model, configuration), stage);
+std::vector<ChainLoads> loads(const Mechanism& base, const Model& model, const Configuration& configuration) {
+  const Mechanism& mechanism = model.mechanism;
+  const bool as_branches = base.chains.size() != mechanism.chains.size();
+  const auto& chains = as_branches ? mechanism.chains.front().groups.front().branches : mechanism.chains;
+  const auto& states =
+      as_branches ? configuration.chains.front().groups.front().branches : configuration.chains;
+  std::vector<ChainLoads> all;
+  for (std::size_t i = 0; i < chains.size(); ++i)
+    all.push_back(chain_loads(base.chains[i], chains[i], states[i]));
+  return all;
 }
 
-std::vector<ChainLoads> loads_without_tool(const Mechanism& base, const Model& model,
-                                           const Configuration& configuration, const Stage& stage) {
-  const std::vector<Series>& chains = model.mechanism.chains;
-  if (base.chains.size() == chains.size()) {  // a tool's parts follow those of its chain
-    std::vector<ChainLoads> all;
-    for (std::size_t i = 0; i < chains.size(); ++i)
-      all.push_back(chain_loads(
-          chains[i], base.chains[i].columns, configuration.chains[i],
-          arm_to_part(chains[i], base.chains[i].parts.size(), configuration.chains[i], stage), stage));
-    return all;
+std::vector<ChainDetail> chain_details(const Model& model, const Configuration& nominal,
+                                       const Configuration& loaded, const Vector6& dt_P,
+                                       const StiffnessPlace& stiff, StaticsWork& work) {
+  const auto eps = chain_eps(model, nominal, work);
+  std::vector<ChainDetail> all;
+  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
+    const Series& series = model.mechanism.chains[i];
+    ChainDetail detail{.name = series.name, .wrench = loaded.chains[i].F, .eps = eps[i]};
+    detail.stiffness = chain_stiffness(model, i, stiff.configuration.chains[i], stiff.stage, work);
+    if (eps[i]) detail.dt = dt_P - *eps[i];
+    detail.energy = elastic_energy(series, loaded.chains[i], everything);
+    Collector{detail}.series(series, loaded.chains[i], "");
+    all.push_back(std::move(detail));
   }
-  const std::vector<Series>& branches = chains.front().groups.front().branches;
-  return chains_loads(branches, branches, configuration.chains.front().groups.front().branches,
-                      Vector3::Zero(), stage);
-}
-
-double value_of(const ChainLoads& loads, LoadKind kind) {
-  switch (kind) {
-    case LoadKind::moment:
-      return loads.moment_max;
-    case LoadKind::spring_translation:
-      return loads.spring_translation_max;
-    case LoadKind::spring_rotation:
-      return loads.spring_rotation_max;
-    case LoadKind::spring_force:
-      return loads.spring_force_max;
-    case LoadKind::spring_torque:
-      return loads.spring_torque_max;
-    case LoadKind::group_moment:
-      return loads.group_moment_max;
-    case LoadKind::passive_change:
-      return loads.passive_change_max;
-  }
-  return 0;
+  return all;
 }
 
 }  // namespace counterflex

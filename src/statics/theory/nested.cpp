@@ -22,14 +22,6 @@ bool solve_chains(const Model& model, const Stage& stage, Configuration& configu
   return true;
 }
 
-// (18): sum of the chains' loaded stiffnesses.
-bool sum_stiffness(const Model& model, const Stage& stage, const Configuration& configuration,
-                   StaticsWork& work, Matrix6& K) {
-  const ManipulatorStiffness sum = stiffness(model, configuration, stage, work);
-  K = sum.K;
-  return sum.available;
-}
-
 // (20)-(21): t <- t + (sum K_C - K_load)^-1 (F - f(t)), every chain is solved again at every t.
 NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, Configuration& configuration,
                                    StaticsWork& work) {
@@ -38,9 +30,10 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
   NewtonResult result;
   double step = std::numeric_limits<double>::infinity();
   for (int iteration = 0; iteration < most_newton_steps; ++iteration) {
-    Matrix6 K;
-    if (!solve_chains(model, problem.stage, configuration, work, result) ||
-        !sum_stiffness(model, problem.stage, configuration, work, K)) {
+    ManipulatorStiffness sum{.available = false};  // (18)
+    if (solve_chains(model, problem.stage, configuration, work, result))
+      sum = stiffness(model, configuration, problem.stage, work);
+    if (!sum.available) {
       configuration = start;
       return newton(model, problem, work.impl(), configuration);
     }
@@ -52,9 +45,9 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
     const double tolerance = force_tolerance(model.mechanism, configuration.X_MP, largest);
     result.converged = step <= step_tolerance && wrench_size(terms.gradient, units) <= tolerance;
     if (result.converged) break;
-    const Vector6 dt = (K + terms.A).partialPivLu().solve(-terms.gradient);
+    const Vector6 dt = (sum.K + terms.A).partialPivLu().solve(-terms.gradient);
     if (!dt.allFinite()) return result;
-    step = std::max(dt.head<3>().norm(), dt.tail<3>().norm() * units.length);
+    step = twist_size(dt, units);
     configuration.X_MP = moved(configuration.X_MP, dt);
   }
   return result;
@@ -64,16 +57,6 @@ NewtonResult equilibrium_by_chains(const Model& model, const Problem& problem, C
 Configuration with_actuators_of(const Model& model, const Configuration& nominal, Configuration loaded) {
   set_actuator_values(model.mechanism, actuator_values(model.mechanism, nominal), loaded);
   return loaded;
-}
-
-Vector6 controlled_part(const Mechanism& mechanism, const Vector6& all) {
-  Vector6 part = Vector6::Zero();
-  for (int c : fixed_components(mechanism)) part[c] = all[c];
-  return part;
-}
-
-double size_of(const Vector6& deviation, const Units& units) {
-  return std::max(deviation.head<3>().norm(), deviation.tail<3>().norm() * units.length);
 }
 
 }  // namespace
@@ -93,8 +76,8 @@ Equilibrium solve_target_nested(const Model& model, const Configuration& nominal
   for (int outer = 0; outer < most_linear_steps; ++outer) {
     if (result.status != Status::converged) return result;
     const Vector6 d =
-        controlled_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
-    const double size = size_of(d, units);
+        fixed_part(model.mechanism, deviation(tip(model.mechanism, result.configuration), X_MT));
+    const double size = twist_size(d, units);
     if (size <= closure_tolerance) return result;
     if (size > error) alpha /= 2;
     error = size;

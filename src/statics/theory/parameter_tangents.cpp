@@ -8,7 +8,7 @@
 #include "statics/model/motion_errors.hpp"
 #include "statics/model/part.hpp"
 #include "statics/model/tip.hpp"
-#include "statics/model/tolerances.hpp"
+#include "statics/model/walk.hpp"
 #include "statics/theory/manipulator.hpp"
 
 namespace counterflex {
@@ -25,7 +25,7 @@ struct VariedParameter {
   double value = 0;   ///< SI
   int component = 0;  ///< of an error or a diagonal spring; -1: one parameter scales the whole spring
   PartPlace at{};
-  Mechanism heavier{};        ///< of a mass: with 1 kg more
+  Model heavier{};            ///< of a mass: with 1 kg more
   MotionErrors unit_error{};  ///< of harmonics and tables
 };
 
@@ -72,10 +72,6 @@ SeriesState with_error_coordinates(const Series& plain, const Series& series, co
   return result;
 }
 
-double stiffness_at(const Part& joint, double x) {
-  return joint.k_change == 0 ? joint.k : joint_force(joint.k, joint.k_change, joint.knee, x).stiffness;
-}
-
 /// d gradient / d parameter (SI) of a compliance: its forces fall with 1 / c. That of a joint with a knee is
 /// F(x / c) with the knee's load held, so that dF/dc = -x dF/dx / c.
 void add_force_change(const VariedParameter& varied, const WholeSystem& system, const Units& units,
@@ -85,7 +81,7 @@ void add_force_change(const VariedParameter& varied, const WholeSystem& system, 
   for (int i = first; i < first + count; ++i) {
     const int row = varied.at.variable + i;
     const double force = is_spring ? varied.at.part->K.row(i).dot(deflection)
-                                   : stiffness_at(*varied.at.part, deflection[0]) * deflection[0];
+                                   : force_of_joint(*varied.at.part, deflection[0]).stiffness * deflection[0];
     column[row] -= units.of_column(system.variables[row].angular) / units.energy() * force / varied.value;
   }
 }
@@ -98,11 +94,11 @@ MotionErrors unit_error(const ParameterPlace& place) {
   if (place.kind == ParameterKind::harmonic) {
     std::fill(actuator.harmonics.begin(), actuator.harmonics.end(), 0);
     actuator.harmonics[i] = 1;
-    return motion_errors(actuator);
+  } else {
+    for (Vector6& error : actuator.errors->errors) error.setZero();
+    actuator.errors->errors[i].segment<3>(actuator.joint.kind == JointKind::prismatic ? 0 : 3) =
+        actuator.joint.axis;
   }
-  for (Vector6& error : actuator.errors->errors) error.setZero();
-  actuator.errors->errors[i].segment<3>(actuator.joint.kind == JointKind::prismatic ? 0 : 3) =
-      actuator.joint.axis;
   return motion_errors(actuator);
 }
 
@@ -111,21 +107,32 @@ double motion_by_command(const Part& actuator, double value) {
   return actuator.errors.empty() ? 1 : 1 + error_along(actuator.joint, actuator.errors, value).slope;
 }
 
-/// Deflections of the springs and compliances of all series, by first variable of the part.
-void collect_deflections(const Series& series, const SeriesState& state, const Stage& stage, int& variable,
-                         std::map<int, Eigen::VectorXd>& deflections) {
-  const int first = variable;
-  variable += series.columns;
-  for (const Part& part : series.parts) {
-    if (part.kind == PartKind::spring)
-      deflections[first + part.column] = spring_deflection(part, state, stage);
-    if (part.kind == PartKind::compliance)
-      deflections[first + part.column] = Eigen::VectorXd::Constant(1, joint_deflection(part, state, stage));
-    if (part.kind == PartKind::group)
-      for (std::size_t b = 0; b < series.groups[part.group].branches.size(); ++b)
-        collect_deflections(series.groups[part.group].branches[b], state.groups[part.group].branches[b],
-                            stage, variable, deflections);
-  }
+/// Deflections of all springs and compliances, by first variable of the part.
+std::map<int, Eigen::VectorXd> deflections_of(const Mechanism& mechanism, const Configuration& configuration,
+                                              const Stage& stage) {
+  std::map<int, Eigen::VectorXd> deflections;
+  int first = 0;
+  for_each_series(mechanism.chains, configuration.chains,
+                  [&](const Series& series, const SeriesState& state) {
+                    for (const Part& part : series.parts) {
+                      if (part.kind == PartKind::spring)
+                        deflections[first + part.column] = spring_deflection(part, state, stage);
+                      if (part.kind == PartKind::compliance)
+                        deflections[first + part.column] =
+                            Eigen::VectorXd::Constant(1, joint_deflection(part, state, stage));
+                    }
+                    first += series.columns;
+                  });
+  return deflections;
+}
+
+/// A varied machine, with the length and the zeros of the machine itself. It has no home.
+Model varied_model(const Machine& varied, const Mechanism& itself) {
+  Model model;
+  model.mechanism = compile(varied);
+  model.mechanism.length = itself.length;
+  set_zero_offsets(zero_offsets(itself), model.mechanism);
+  return model;
 }
 
 /// How the offsets of a zero that was set under weight change with a parameter; central difference.
@@ -145,7 +152,7 @@ Eigen::VectorXd offset_tangent(const Machine& machine, std::size_t index) {
 struct ParameterTangents::Impl {
   Mechanism plain;  ///< of the machine itself
   Machine machine;  ///< varied errors are springs without stiffness: their coordinates are the parameters
-  Model model;      ///< of that machine; it has no home
+  Model model;      ///< of that machine
   std::vector<VariedParameter> varied;
   std::vector<PartPlace> actuators;
   Eigen::MatrixXd offsets;  ///< actuators x varied: tangents of zeros that were set under weight
@@ -168,10 +175,8 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
   for (const std::size_t index : varied)
     if (auto* error = std::get_if<AssemblyError>(all[index].element))
       *all[index].element = Spring{error->name};
-  Mechanism& mechanism = impl_->model.mechanism;
-  mechanism = compile(impl_->machine);
-  mechanism.length = model.mechanism.length;
-  set_zero_offsets(zero_offsets(model.mechanism), mechanism);
+  impl_->model = varied_model(impl_->machine, model.mechanism);
+  const Mechanism& mechanism = impl_->model.mechanism;
   int variable = 0;
   std::map<const Element*, PartPlace> places;
   for (std::size_t i = 0; i < machine.chains.size(); ++i)
@@ -188,10 +193,8 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
     if (const auto found = places.find(place.element); found != places.end()) entry.at = found->second;
     if (place.kind == ParameterKind::mass) {
       std::get<PointMass>(*place.element).kg += 1;
-      entry.heavier = compile(impl_->machine);
-      entry.heavier.length = model.mechanism.length;
+      entry.heavier = varied_model(impl_->machine, model.mechanism);
       std::get<PointMass>(*place.element).kg -= 1;
-      set_zero_offsets(zero_offsets(model.mechanism), entry.heavier);
     }
     const bool holds_zero = place.kind == ParameterKind::compliance || place.kind == ParameterKind::mass;
     if (machine.gravity.true_at_home && holds_zero)
@@ -217,22 +220,12 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
   const Units units{impl.model.mechanism.length};
   const Configuration configuration = impl.configuration(found);
   const Problem problem{load, stage, nullptr};
-  std::vector<Eigen::VectorXd> heavier;
-  for (const VariedParameter& varied : impl.varied) {
-    if (varied.kind != ParameterKind::mass) continue;
-    Model model;
-    model.mechanism = varied.heavier;
+  const auto system_of = [&](const Model& model) {
     evaluate_all(model, configuration, stage, work.impl());
-    heavier.push_back(whole_system(model, configuration, problem, work.impl()).gradient);
-  }
-  evaluate_all(impl.model, configuration, stage, work.impl());
-  const WholeSystem system = whole_system(impl.model, configuration, problem, work.impl());
-  std::map<int, Eigen::VectorXd> deflections;
-  int variable = 0;
-  for (std::size_t i = 0; i < configuration.chains.size(); ++i)
-    collect_deflections(impl.model.mechanism.chains[i], configuration.chains[i], stage, variable,
-                        deflections);
-
+    return whole_system(model, configuration, problem, work.impl());
+  };
+  const WholeSystem system = system_of(impl.model);
+  const auto deflections = deflections_of(impl.model.mechanism, configuration, stage);
   const Eigen::VectorXd values = actuator_values(impl.plain, found);
   HeldSteps steps;
   steps.is_held.assign(system.variables.size(), false);
@@ -240,12 +233,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
   const Eigen::Index columns = n + (impl.and_load ? 1 : 0);
   steps.held.setZero(static_cast<Eigen::Index>(system.variables.size()), columns);
   steps.gradient.setZero(static_cast<Eigen::Index>(system.variables.size()), columns);
-  std::size_t mass = 0;
   for (Eigen::Index k = 0; k < n; ++k) {
     const VariedParameter& varied = impl.varied[static_cast<std::size_t>(k)];
     const int first = varied.at.variable;
     if (varied.kind == ParameterKind::mass)
-      steps.gradient.col(k) = heavier[mass++] - system.gradient;
+      steps.gradient.col(k) = system_of(varied.heavier).gradient - system.gradient;
     else if (varied.kind == ParameterKind::compliance)
       add_force_change(varied, system, units, deflections.at(first), steps.gradient.col(k));
     else if (varied.kind == ParameterKind::reversal)
@@ -265,11 +257,11 @@ Eigen::Matrix<double, 6, Eigen::Dynamic> ParameterTangents::of_tip(const Configu
     if (varied.kind == ParameterKind::position || varied.kind == ParameterKind::orientation)
       for (int i = 0; i < 6; ++i) steps.is_held[static_cast<std::size_t>(first + i)] = true;
   }
-  if (impl.and_load) {  // the gradient is linear in it
-    const Problem unloaded{{Vector6::Zero(), load.at_platform}, stage, nullptr};
-    steps.gradient.col(n) =
-        system.gradient - whole_system(impl.model, configuration, unloaded, work.impl()).gradient;
-  }
+  if (impl.and_load)  // the gradient is linear in it
+    steps.gradient.col(n).tail<6>() =
+        -applied_wrench(impl.model.mechanism, configuration.X_MP, load, stage.load)
+             .F.cwiseProduct(units.of_pose()) /
+        units.energy();
   const Eigen::MatrixXd moved = solve_held(system, steps, units);
   return tip_from_platform(impl.model.mechanism, configuration.X_MP) * moved.bottomRows<6>();
 }

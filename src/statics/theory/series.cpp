@@ -1,8 +1,9 @@
+#include "statics/theory/series.hpp"
+
 #include <Eigen/Geometry>
 #include <algorithm>
 
 #include "statics/model/part.hpp"
-#include "statics/theory/weights.hpp"
 
 namespace counterflex {
 namespace {
@@ -170,14 +171,9 @@ void evaluate(const Series& series, const SeriesState& state, const Pose& X_end,
   work.gradient.noalias() -= work.w.transpose() * state.F.tail<3>();
 }
 
-double wrench_size(const Vector6& F, const Units& units) {
-  return std::max(F.head<3>().norm(), F.tail<3>().norm() / units.length);
-}
-
 void add_residual(const Series& series, const SeriesState& state, const SeriesWork& work, const Units& units,
                   Residual& residual) {
-  residual.closure =
-      std::max({residual.closure, work.gap.head<3>().norm(), work.gap.tail<3>().norm() * units.length});
+  residual.closure = std::max(residual.closure, twist_size(work.gap, units));
   for (int c : series.free)
     residual.force =
         std::max(residual.force, std::abs(work.gradient[c]) / (series.angular[c] ? units.length : 1.0));

@@ -1,8 +1,7 @@
-#include "statics/theory/weights.hpp"
-
 #include <Eigen/Geometry>
 
 #include "statics/model/part.hpp"
+#include "statics/theory/series.hpp"
 
 namespace counterflex {
 namespace {

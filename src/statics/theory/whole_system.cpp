@@ -7,6 +7,7 @@
 #include "counterflex/geometry/spectrum.hpp"
 #include "statics/model/part.hpp"
 #include "statics/model/tolerances.hpp"
+#include "statics/model/walk.hpp"
 
 namespace counterflex {
 namespace {
@@ -154,35 +155,6 @@ double eigenvalue_error(const WholeSystem& system) {
   return rounding * static_cast<double>(system.variables.size()) + 4 * system.force_error / system.wrench;
 }
 
-struct StepApplier {
-  const WholeStep& step;
-  const Units& units;
-  int variable = 0, closure = 0;
-  double largest = 0;
-
-  void series(const Series& series, SeriesState& state) {
-    const int v0 = variable;
-    variable += series.columns;
-    state.F += step.wrenches.segment<6>(closure);
-    closure += 6;
-    for (int j = 0; j < series.columns; ++j)
-      largest =
-          std::max(largest, std::abs(step.variables[v0 + j]) * (series.angular[j] ? units.length : 1.0));
-    for (const Part& part : series.parts) {
-      if (part.column < 0) continue;
-      if (part.kind != PartKind::group) {
-        state.x.segment(part.column, columns_of(part)) +=
-            step.variables.segment(v0 + part.column, columns_of(part));
-        continue;
-      }
-      GroupState& group = state.groups[part.group];
-      group.X = moved(group.X, step.variables.segment<6>(v0 + part.column));
-      for (std::size_t b = 0; b < group.branches.size(); ++b)
-        this->series(series.groups[part.group].branches[b], group.branches[b]);
-    }
-  }
-};
-
 }  // namespace
 
 Closures assemble_closures(const Mechanism& mechanism, const std::vector<SeriesWork>& works,
@@ -226,9 +198,7 @@ WholeStep solve_whole(const WholeSystem& system, const std::optional<Controlled>
     rhs.conservativeResize(size + n);
     rhs.tail(n) = controlled->rhs;
   }
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(B);
+  const Decomposition decomposition = decomposed(B);
   const Eigen::VectorXd x = solved(decomposition, rhs);
   WholeStep step;
   step.redundant = decomposition.rank() < B.cols();
@@ -250,10 +220,7 @@ Eigen::MatrixXd solve_held(const WholeSystem& system, const HeldSteps& given, co
   const auto n = static_cast<Eigen::Index>(columns.size());
   Eigen::MatrixXd rhs(n + system.C.rows(), held.cols());
   rhs << -(system.A(columns, Eigen::all) * held + given.gradient(columns, Eigen::all)), -(system.C * held);
-  Eigen::CompleteOrthogonalDecomposition<Eigen::MatrixXd> decomposition;
-  decomposition.setThreshold(rank_threshold);
-  decomposition.compute(bordered(system, columns, columns));
-  const Eigen::MatrixXd x = solved(decomposition, rhs);
+  const Eigen::MatrixXd x = solved(decomposed(bordered(system, columns, columns)), rhs);
   Eigen::MatrixXd steps = given.held;
   for (Eigen::Index i = 0; i < n; ++i)
     steps.row(columns[i]) = x.row(i) * units.of_column(system.variables[columns[i]].angular);
@@ -262,12 +229,28 @@ Eigen::MatrixXd solve_held(const WholeSystem& system, const HeldSteps& given, co
 
 double apply(const Mechanism& mechanism, const WholeStep& step, const Units& units,
              Configuration& configuration) {
-  StepApplier applier{step, units};
-  for (std::size_t i = 0; i < mechanism.chains.size(); ++i)
-    applier.series(mechanism.chains[i], configuration.chains[i]);
+  int variable = 0, closure = 0;
+  double largest = 0;
+  for_each_series(mechanism.chains, configuration.chains, [&](const Series& series, SeriesState& state) {
+    const auto own = step.variables.segment(variable, series.columns);
+    for (int j = 0; j < series.columns; ++j)
+      largest = std::max(largest, std::abs(own[j]) * (series.angular[j] ? units.length : 1.0));
+    for (const Part& part : series.parts) {
+      if (part.column < 0) continue;
+      if (part.kind != PartKind::group) {
+        state.x.segment(part.column, columns_of(part)) += own.segment(part.column, columns_of(part));
+        continue;
+      }
+      Pose& X = state.groups[part.group].X;
+      X = moved(X, own.segment<6>(part.column));
+    }
+    state.F += step.wrenches.segment<6>(closure);
+    variable += series.columns;
+    closure += 6;
+  });
   const Vector6 pose_step = step.variables.tail<6>();
   configuration.X_MP = moved(configuration.X_MP, pose_step);
-  return std::max({applier.largest, pose_step.head<3>().norm(), pose_step.tail<3>().norm() * units.length});
+  return std::max(largest, twist_size(pose_step, units));
 }
 
 Condition condition(const WholeSystem& system, const Units& units) {
@@ -307,7 +290,7 @@ double least_scaled_eigenvalue(const WholeSystem& system) {
   const Eigen::VectorXd scale = A.diagonal().cwiseAbs().cwiseMax(system.wrench).cwiseSqrt().cwiseInverse();
   C = C * scale.asDiagonal();
   A = scale.asDiagonal() * A * scale.asDiagonal();
-  const Eigen::MatrixXd Z = null_space(C, rank_threshold);
+  const Eigen::MatrixXd Z = null_space(C);
   if (Z.cols() == 0) return 0;
   const Eigen::MatrixXd symmetric = 0.5 * (A + A.transpose()), Z_A = Z.transpose() * symmetric;
   const double least = eigenvalues(Z_A * Z)[0];

@@ -63,7 +63,7 @@ bool same_loads(const LoadsAlong& a, const LoadsAlong& b) {
     for (std::size_t c = 0; c < a.places[i].chains.size(); ++c) {
       if (a.places[i].chains[c].wrench != b.places[i].chains[c].wrench) return false;
       for (const LoadKind kind : load_kinds)
-        if (value_of(a.places[i].chains[c], kind) != value_of(b.places[i].chains[c], kind)) return false;
+        if (a.places[i].chains[c][kind] != b.places[i].chains[c][kind]) return false;
     }
   return true;
 }
@@ -192,14 +192,13 @@ TEST_CASE("loads at a place are those of the machine that is commanded to go the
              (w.p_MT - tip(shop.model.mechanism, alone.configuration).p).norm() < 5e-6;
     });
     CHECK(found != result.waypoints.end());
-    const auto expected = loads(shop.model, alone.configuration, {});
+    const auto expected = loads(shop.model.mechanism, shop.model, alone.configuration);
     REQUIRE(along.places[i].chains.size() == 3);
     CHECK(along.places[i].line == places[i].at.line);
     for (std::size_t c = 0; c < 3; ++c) {
       CHECK(along.places[i].chains[c].name == expected[c].name);
       for (const LoadKind kind : load_kinds)
-        CHECK(value_of(along.places[i].chains[c], kind) ==
-              doctest::Approx(value_of(expected[c], kind)).epsilon(1e-6));
+        CHECK(along.places[i].chains[c][kind] == doctest::Approx(expected[c][kind]).epsilon(1e-6));
     }
   }
 }

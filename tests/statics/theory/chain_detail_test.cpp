@@ -45,7 +45,7 @@ TEST_CASE(
 TEST_CASE("the errors of the paper's case A are 1 mm along every leg") {
   const Model model = model_of("orthoglide_case_a");
   StaticsWork work(model.mechanism);
-  const auto eps = chain_eps(model, model.home, {}, work);
+  const auto eps = chain_eps(model, model.home, work);
   REQUIRE(eps.size() == 3);
   for (int i = 0; i < 3; ++i) {
     REQUIRE(eps[i]);

@@ -97,10 +97,10 @@ TEST_CASE(
     CAPTURE(row.at_mm.transpose());
     const LinearResult linear = assembly_at(model, row.at_mm, work);
     double moment = 0, group = 0, rotation = 0, force = 0;
-    for (const ChainLoads& chain : loads(model, linear.configuration, {})) {
-      moment = std::max(moment, chain.moment_max);
-      group = std::max(group, chain.group_moment_max);
-      rotation = std::max(rotation, chain.spring_rotation_max);
+    for (const ChainLoads& chain : loads(model.mechanism, model, linear.configuration)) {
+      moment = std::max(moment, chain[LoadKind::moment]);
+      group = std::max(group, chain[LoadKind::group_moment]);
+      rotation = std::max(rotation, chain[LoadKind::spring_rotation]);
       force = std::max(force, chain.wrench.head<3>().norm());
     }
     if (row.moment > 0) CHECK(std::abs(moment - row.moment) < 0.0051);

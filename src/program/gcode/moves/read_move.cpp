@@ -42,10 +42,6 @@ void set_inverse_time(const Reading& r, Move& move) {
   move.feed_mm_min = f->value * way_mm(move);
 }
 
-bool any(const std::array<bool, 3>& axes) {
-  return axes[0] || axes[1] || axes[2];
-}
-
 /// Whether the block has words whose effect inserted points would change.
 void allow_changes(const Reading& r, Move& move) {
   const SortedBlock& b = r.sorted;
@@ -55,15 +51,15 @@ void allow_changes(const Reading& r, Move& move) {
   const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::retract) || b.has(MAction::machine);
-  const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own || any(move.fixed) ||
-                     move.cycle.has_value();
+  const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own ||
+                     any_axis(move.fixed) || move.cycle.has_value();
   // Pieces of a G93 move need a share of its time.
   const bool shares_time = move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0;
   // Inserted words and blocks are read in the modal state.
   const bool has_own_modes = r.relative() != r.state.relative;
   // The control shortens both blocks of a corner. The corner is in one plane.
   const bool corner = r.corner || r.after_corner;
-  move.may_insert_words = move.may_insert_words && !tool_length && !any(move.fixed) && !has_own_modes;
+  move.may_insert_words = move.may_insert_words && !tool_length && !any_axis(move.fixed) && !has_own_modes;
   move.may_split =
       feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
@@ -330,7 +326,7 @@ void place_words(const Block& block, Reading& r, Move& move) {
         r.options.evaluate
             ? "a position is a variable or an expression whose value is not known from the text"
             : "a position is a variable or an expression (--evaluate works out constants)");
-  if (any(move.fixed))
+  if (any_axis(move.fixed))
     return note_uncorrected(block, r, "a relative position starts from an unknown position");
   if (!r.angle || place_by_angle(r, move)) return;
   for (std::size_t axis = 0; axis < 2; ++axis) fix_axis(r, move, axis);
