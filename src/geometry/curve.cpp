@@ -50,6 +50,10 @@ Vector3 direction_at(const Curve& curve, double u) {
   return size > 0 ? Vector3(rate / size) : Vector3(Vector3::Zero());
 }
 
+double radius_at(const Arc& arc, const Vector3& p) {
+  return about(arc, p).radius;
+}
+
 double length_of_arc(const Curve& curve) {
   const Cylinder a = about(*curve.arc, curve.start), b = about(*curve.arc, curve.end);
   const double around = 0.5 * (a.radius + b.radius) * curve.arc->sweep;
@@ -78,6 +82,18 @@ double sweep_between(const Vector3& start, const Vector3& end, const Vector3& ce
   double angle = std::atan2(arm.dot(a.onward), arm.dot(a.outward));
   if (angle < 1e-12) angle += two_pi;
   return angle + turns * two_pi;
+}
+
+double angle_between(const Arc& axis, const Vector3& a, const Vector3& b) {
+  const Vector3 &n = axis.normal, from = a - axis.centre, to = b - axis.centre;
+  return std::atan2(n.dot(from.cross(to)), from.dot(to) - from.dot(n) * to.dot(n));
+}
+
+double angle_about(const Arc& axis, const Curve& way) {
+  const double between = angle_between(axis, way.start, way.end);
+  if (!way.arc) return between;
+  const double own = way.arc->normal.dot(axis.normal) < 0 ? -way.arc->sweep : way.arc->sweep;
+  return own + std::remainder(between - own, two_pi);
 }
 
 }  // namespace counterflex

@@ -28,7 +28,7 @@ class PathDirections {
   Directions at(std::size_t move, double u, Side side) const;
 
   /// Fractions inside a move at which a joint reverses, increasing.
-  void inside(std::size_t move, std::vector<double>& fractions) const;
+  std::vector<double> inside(std::size_t move) const;
 
   const Directions& last() const { return changes_.empty() ? first_ : changes_.back().behind; }
   const std::vector<DirectionChange>& changes() const { return changes_; }

@@ -35,6 +35,9 @@ inline Vector3 point_at(const Curve& curve, double u) {
 /// Unit vector along the curve at `u`; zero where the curve has no length.
 Vector3 direction_at(const Curve& curve, double u);
 
+/// The distance of a point from the axis of an arc.
+double radius_at(const Arc& arc, const Vector3& p);
+
 /// `length` of an arc.
 double length_of_arc(const Curve& curve);
 
@@ -53,5 +56,12 @@ Curve operator*(const Pose& X_AB, const Curve& curve);
 /// both have the same direction to within 1e-12 rad. With `turns` full turns more.
 double sweep_between(const Vector3& start, const Vector3& end, const Vector3& centre, const Vector3& normal,
                      int turns = 0);
+
+/// The angle from point `a` to point `b` about `axis`, in (-pi, pi] (rad).
+double angle_between(const Arc& axis, const Vector3& a, const Vector3& b);
+
+/// How far `way` turns about `axis` (rad): the angle between its ends, with the full turns that its own sweep
+/// makes. The errors of a way's own radius and centre do not add up along many ways.
+double angle_about(const Arc& axis, const Curve& way);
 
 }  // namespace counterflex

@@ -86,6 +86,15 @@ Vector3 as_written_mm(const Vector3& p_mm, LengthUnit unit, const std::array<int
 struct TextPosition : std::array<std::optional<double>, 3> {
   std::optional<double> cycle_initial_mm{};         ///< Z at which the active series of cycles began
   BoxedOptional<OrientationNumbers> orientation{};  ///< the numbers in the text, where they are known
+
+  void set(const Vector3& p_mm) {
+    for (std::size_t axis = 0; axis < 3; ++axis) (*this)[axis] = p_mm[static_cast<Eigen::Index>(axis)];
+  }
+  /// Where all axes are known.
+  std::optional<Vector3> place_mm() const {
+    if (!(*this)[0] || !(*this)[1] || !(*this)[2]) return std::nullopt;
+    return Vector3(*(*this)[0], *(*this)[1], *(*this)[2]);
+  }
 };
 
 /// The position in the written text after `move`, whose end is edited to `end_mm`. `before` is the position

@@ -6,12 +6,13 @@
 #include <cmath>
 
 #include "compensation/emit/emitter.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 
 Emission Emitter::run() {
-  out_.moves.reserve(job_.program.moves.size());
+  out_.edits.reserve(job_.program.moves.size());
   for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
     const bool has_segment =
         next_segment_ < job_.path.segments.size() && job_.path.segments[next_segment_].move == m;
@@ -22,6 +23,7 @@ Emission Emitter::run() {
     state_.doubtful = leaves_doubt(job_.program.moves[m], state_.doubtful);
   }
   leave_pending_alone();
+  out_.other_moves.left = job_.program.moves.size() - out_.edits.size();
   return std::move(out_);
 }
 
@@ -29,7 +31,7 @@ void Emitter::emit_move(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
   if (move.starts_uncorrected) {
     leave_pending_alone();
-    hold(-frame(move).datum_shift, {true, true, true});
+    hold(-frame(move).datum_shift);
     state_.turn.setZero();
   }
   const bool known = all_known(move.known_start) && all_known(move.known_end);
@@ -37,10 +39,10 @@ void Emitter::emit_move(std::size_t m, Index s) {
       state_.doubtful && state_.correction_known && pending_.empty() && any_axis(state_.holds);
   if (any_axis(move.fixed)) return emit_fixed(m);
   if (move.group != 0) return emit_group(m, s);
-  if (move.handling == Handling::held) return emit_rigid(m, s, Kind::shifted);
+  if (move.handling == Handling::held) return emit_rigid(m, s);
   if (move.cycle) return emit_hole(m);
   if (s) return emit_segment(*s);
-  if (known) return state_.correction_known ? emit_rigid(m, s, Kind::shifted) : pass(move);
+  if (known) return state_.correction_known ? emit_rigid(m, s) : pass(move);
   if (carries && (move.motion == Motion::feed || !all_known(move.known_end))) return emit_doubtful(m);
   if (all_known(move.known_end)) return emit_first_known(m);
   pending_.push_back(m);
@@ -49,21 +51,19 @@ void Emitter::emit_move(std::size_t m, Index s) {
 void Emitter::emit_segment(std::size_t s) {
   const Segment& segment = job_.path.segments[s];
   const PlannedSegment& planned = plan_.segments[s];
-  EmittedMove& emitted = out_.moves.emplace_back();
-  emitted.edit.move = segment.move;
-  emitted.kind = Kind::segment;
+  MoveEdit edit{.move = segment.move};
   UnsplitMiss miss{.position = planned.unsplit_miss};
   double jump = 0;
   start_turn_ = state_.turn;
-  end_turn_ = end_of(planned).turn;
-  const bool jumps = put_jump(segment, planned, emitted, jump);
+  end_turn_ = planned.knots.back().turn;
+  const bool jumps = put_jump(segment, planned, edit, jump);
   if (segment.wanted.arc)
-    emit_arc(segment, planned, emitted, miss);
+    emit_arc(segment, planned, edit, miss);
   else
-    emit_line(segment, planned, emitted, miss);
+    emit_line(segment, planned, edit, miss);
   // A block that must stay one begins where the last one ended.
   if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) miss.position += jump;
-  finish_segment(segment, planned, miss, emitted);
+  finish_segment(segment, planned, miss, std::move(edit));
 }
 
 namespace {
@@ -80,8 +80,7 @@ Via Emitter::via_of(const Move& move, const TargetCommand& command, double u) co
 }
 
 // Whether the correction steps at the start; a feed move performs the step where one may be inserted.
-bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                       double& jump) {
+bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, double& jump) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 start = planned.start.target - segment.wanted.start;
   Vector3 step = start - state_.correction;
@@ -100,43 +99,107 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Em
   const Via begin = via_of(move, planned.start, 0);
   start_turn_ = planned.start.turn;
   if (move.may_jump)
-    emitted.edit.jump = begin;
+    edit.jump = begin;
   else
-    emitted.edit.inserted.push_back(begin);
+    edit.inserted.push_back(begin);
   go_through(move, begin, piece_held_);
   return true;
 }
 
-void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit,
                         UnsplitMiss& miss) {
   const Move& move = job_.program.moves[segment.move];
   for (std::size_t k = 0; k + 1 < planned.knots.size(); ++k) {
-    emitted.edit.inserted.push_back(via_of(move, planned.knots[k], planned.knots[k].u));
+    edit.inserted.push_back(via_of(move, planned.knots[k], planned.knots[k].u));
   }
-  const Vector3& end = end_of(planned).target;
+  const Vector3& end = planned.knots.back().target;
   if (move.may_position) {
     Vector3 above = in_words_mm(job_, move, end);
     above.z() = before(move)[2].value_or(move.start_mm.z());
-    emitted.edit.inserted.push_back({above});
+    edit.inserted.push_back({above});
   }
-  const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), emitted.edit);
+  const double miss_mm = set_height_inside(index_of(segment), in_words_mm(job_, move, end), edit);
   if (miss_mm * mm > (1 - height_share) * job_.options.tolerance)
     miss.position = std::max(miss.position, miss_mm * mm);
 }
 
+// Lines beside corners: their height changes between what the corners take.
+
+// Planned, in the words of the segment's move; nothing where an end is not planned.
+std::optional<Emitter::EndHeights> Emitter::end_heights(std::size_t s) const {
+  const PlannedSegment& planned = plan_.segments[s];
+  const Move& move = job_.program.moves[job_.path.segments[s].move];
+  if (!planned.group.empty())
+    return EndHeights{move.start_mm.z() + shift_mm(move, shift_of(planned.group.front().c)).z(),
+                      move.end_mm.z() + shift_mm(move, shift_of(planned.group.back().c)).z()};
+  if (planned.knots.empty()) return std::nullopt;
+  const Vector3& end = planned.knots.back().target;
+  return EndHeights{in_words_mm(job_, move, planned.start.target).z(), in_words_mm(job_, move, end).z()};
+}
+
+namespace {
+
+double slope(const Move& move, double rise_mm) {
+  return rise_mm / (move.end_mm - move.start_mm).norm();
+}
+
+}  // namespace
+
+// The height of the corner at the end of a segment: in the middle of what both of its flat sides should
+// reach.
+double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const {
+  const Move &move = job_.program.moves[job_.path.segments[s].move], *next = &move + 1;
+  const bool follows =
+      s + 1 < plan_.segments.size() && job_.path.segments[s + 1].move == job_.path.segments[s].move + 1;
+  const auto behind = follows && next->corners ? end_heights(s + 1) : std::nullopt;
+  if (!behind || !changes_height_inside(*next)) return heights.end_mm;
+  const double before_it =
+                   -flat_part_mm(move.corners->end_mm) * slope(move, heights.end_mm - heights.start_mm),
+               behind_it =
+                   flat_part_mm(next->corners->begin_mm) * slope(*next, behind->end_mm - behind->start_mm);
+  const double middle = (std::max({0.0, before_it, behind_it}) + std::min({0.0, before_it, behind_it})) / 2,
+               most = height_share * job_.options.tolerance / mm;
+  return heights.end_mm + std::clamp(middle, -most, most);
+}
+
+// A line beside corners keeps its height beside the first, changes it, and ends at the height of its end.
+// Returns by how much its flat parts miss their places (mm).
+double Emitter::set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit) {
+  const Move& move = job_.program.moves[job_.path.segments[s].move];
+  if (!changes_height_inside(move) || !edit.inserted.empty()) return 0;
+  const auto from_mm = before(move).place_mm();
+  const auto heights = end_heights(s);
+  if (!from_mm || !heights) return 0;
+  const Vector3 start_mm = *from_mm, way_mm = end_mm - start_mm;
+  const double begins_mm = flat_part_mm(move.corners->begin_mm), ends_mm = flat_part_mm(move.corners->end_mm),
+               length_mm = (move.end_mm - move.start_mm).norm();
+  const double end_height = ends_mm > 0 ? corner_height_mm(s, *heights) : end_mm.z();
+  if (rounds_to_nothing(move, 2, end_height - start_mm.z())) return 0;
+  const auto put_at = [&](double u, double height) {
+    Vector3 p = start_mm + u * way_mm;
+    p.z() = height;
+    edit.inserted.push_back({p});
+  };
+  if (begins_mm > 0) put_at(begins_mm / length_mm, start_mm.z());
+  if (ends_mm > 0) put_at(1 - ends_mm / length_mm, end_height);
+  const double rise = slope(move, heights->end_mm - heights->start_mm);
+  return std::max(std::abs(start_mm.z() - heights->start_mm - rise * begins_mm),
+                  std::abs(end_height - heights->end_mm + rise * ends_mm));
+}
+
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, const UnsplitMiss& miss,
-                             EmittedMove& emitted) {
+                             MoveEdit edit) {
   const Move& move = job_.program.moves[segment.move];
-  const Vector3 correction = end_of(planned).target - segment.wanted.end;
+  const Vector3 correction = planned.knots.back().target - segment.wanted.end;
   Vector3 kept = correction_that_can_be_written(move, correction);
-  emitted.in_part = kept != correction;
+  const bool in_part = kept != correction;
   const bool ends_elsewhere = move.arc && (move.arc->flat || move.polar);
   if (ends_elsewhere) kept = correction_where_held(move, kept);
-  emitted.edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
+  edit.end_mm = in_words_mm(job_, move, segment.wanted.end + kept);
   state_.turn = end_turn_;
-  emitted.edit.orientation = turned_words(job_, move, 1, state_.turn);
-  hold(kept, {true, true, true});
-  if (emitted.in_part)
+  edit.orientation = turned_words(job_, move, 1, state_.turn);
+  hold(kept);
+  if (in_part)
     list_held_words(move, correction - kept);
   else if (miss.position > 0)
     list(move,
@@ -146,7 +209,7 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
     list(move, fmt::format("not split, and the control turns the tool with the path: the orientation at its "
                            "end stays off by {:.4f} degrees",
                            miss.turn / deg));
-  take_in(emitted.edit);
+  put(std::move(edit), in_part ? Extent::in_part : Extent::whole);
   if (ends_elsewhere && move.polar) {
     for (std::size_t axis = 0; axis < 3; ++axis) state_.held[axis] = piece_held_[axis];
   }
@@ -189,19 +252,11 @@ Vector3 Emitter::correction_where_held(const Move& move, const Vector3& correcti
     shift[k] = held;
     differs = true;
   }
-  if (!differs) return correction;
-  return frame(move).X_MW.R * (shift * mm) - frame(move).datum_shift;
+  return differs ? correction_of(move, shift) : correction;
 }
 
 Emission emit(const Job& job, const Plan& plan, EmitterState& state) {
   return Emitter(job, plan, state).run();
-}
-
-std::vector<MoveEdit> take_edits(Emission& emission) {
-  std::vector<MoveEdit> edits;
-  edits.reserve(emission.moves.size());
-  for (EmittedMove& move : emission.moves) edits.push_back(std::move(move.edit));
-  return edits;
 }
 
 }  // namespace counterflex

@@ -5,26 +5,14 @@
 
 namespace counterflex {
 
-/// One move of the original with its edit.
-struct EmittedMove {
-  enum class Kind {
-    segment,  ///< judged along its segment
-    shifted,  ///< goes nowhere, or from an unknown position: it keeps a correction
-    alone,    ///< the first position that is known in all axes, or the bottom of a hole
-  };
-  MoveEdit edit;
-  Kind kind = Kind::shifted;
-  bool in_part = false;  ///< listed: held, or corrected without its force
-};
-
+/// The edits of a window, and how many of its moves are corrected in which way.
 struct Emission {
-  std::vector<EmittedMove> moves;
+  std::vector<MoveEdit> edits;
+  std::size_t corrected_moves = 0;  ///< each on its own
+  OtherMoves other_moves;
   std::vector<LeftAlone> left_alone;
   std::optional<Failure> failure;
 };
-
-/// The edits of an emission, out of which their inserted points are moved.
-std::vector<MoveEdit> take_edits(Emission& emission);
 
 /// What holds where the tool is, from move to move and from window to window.
 struct EmitterState {

@@ -3,16 +3,15 @@
 #include <cmath>
 
 #include "compensation/emit/emitter.hpp"
-#include "compensation/plan/arc_pieces.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
-void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
+void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit,
                        UnsplitMiss& miss) {
   const Move& move = job_.program.moves[segment.move];
-  if (!move.may_split) return put_one_arc(arc_task(segment, planned, planned.arc.front()), emitted, miss);
+  if (!move.may_split) return put_one_arc(arc_task(segment, planned, planned.arc.front()), edit, miss);
   for (const CorrectionCurve& stretch : planned.arc) {
     const ArcTask task = arc_task(segment, planned, stretch);
     const double begin = stretch.begin(), end = stretch.end();
@@ -20,7 +19,7 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       Via step{task.commanded(begin)};
       if (move.orientation) step.orientation = task.turned(begin);
       go_through(move, step, piece_held_);
-      emitted.edit.inserted.push_back(step);
+      edit.inserted.push_back(step);
     }
     ArcPieces pieces = divide_arc(task, begin, end, piece_held_);
     if (pieces.lack_digits) {
@@ -28,13 +27,11 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Em
       return;
     }
     piece_held_ = pieces.held;
-    for (std::size_t i = 0; move.orientation && i < pieces.vias.size(); ++i)
-      pieces.vias[i].orientation = task.turned(pieces.ends[i]);
     if (end == 1) {
-      emitted.edit.centre_mm = pieces.vias.back().centre_mm;
+      edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
     }
-    emitted.edit.inserted.insert(emitted.edit.inserted.end(), pieces.vias.begin(), pieces.vias.end());
+    edit.inserted.insert(edit.inserted.end(), pieces.vias.begin(), pieces.vias.end());
   }
 }
 
@@ -96,7 +93,7 @@ std::optional<OrientationNumbers> allowed_end(const ArcTask& task, const ArcPiec
 }  // namespace
 
 // Under exact stop: the best single arc there is, and what it misses.
-void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, UnsplitMiss& miss) {
+void Emitter::put_one_arc(const ArcTask& task, MoveEdit& edit, UnsplitMiss& miss) {
   const ArcPiece whole{0, 1, true, piece_held_};
   FittedArc fit = fit_arc(task, whole);
   if (task.move.polar) {
@@ -108,9 +105,8 @@ void Emitter::put_one_arc(const ArcTask& task, EmittedMove& emitted, UnsplitMiss
         task.move,
         "this arc must stay one block, and none within the control's radius rules follows the corrected one");
   if (fit.sound && !keeps_turn_limits(task, whole, fit.read)) keep_turn_limits(task, fit, miss);
-  emitted.edit.centre_mm = fit.via.centre_mm;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    piece_held_[axis] = fit.read.end[static_cast<Eigen::Index>(axis)];
+  edit.centre_mm = fit.via.centre_mm;
+  piece_held_.set(fit.read.end);
   if (fit.miss_mm > task.tolerance_mm) miss.position = std::max(miss.position, fit.miss_mm * mm);
 }
 

@@ -239,8 +239,7 @@ bool Emitter::begin_group(std::size_t m, Index s) {
   if (!find_group_motion(m, s.value_or(next_segment_))) return state_.correction_known;
   leave_far_pending_alone(move);
   const Vector3 before_mm = held_shift_mm(move);
-  set_shift(move, group_shift_mm(move, s, group_motion_->shift.z()));
-  state_.holds = {true, true, true};
+  hold(correction_of(move, group_shift_mm(move, s, group_motion_->shift.z())));
   check_step(move, before_mm);
   give_to_pending();
   return true;
@@ -250,8 +249,9 @@ void Emitter::emit_group(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
   if (move.group != state_.group && !begin_group(m, s)) return pending_.push_back(m);
   if (out_.failure) return;
-  if (group_motion_) set_shift(move, group_shift_mm(move, s, held_shift_mm(move).z()));
-  emit_rigid(m, s, Kind::shifted);
+  if (group_motion_)
+    state_.correction = correction_of(move, group_shift_mm(move, s, held_shift_mm(move).z()));
+  emit_rigid(m, s);
 }
 
 }  // namespace counterflex

@@ -21,15 +21,14 @@ Vector3 Emitter::held_shift_mm(const Move& move) const {
   return shift;
 }
 
-void Emitter::set_shift(const Move& move, const Vector3& shift_mm) {
-  state_.correction = frame(move).X_MW.R * (shift_mm * mm) - frame(move).datum_shift;
-  state_.correction_known = true;
+Vector3 Emitter::correction_of(const Move& move, const Vector3& shift_mm) const {
+  return frame(move).X_MW.R * (shift_mm * mm) - frame(move).datum_shift;
 }
 
-void Emitter::hold(const Vector3& correction, const std::array<bool, 3>& axes) {
+void Emitter::hold(const Vector3& correction) {
   state_.correction = correction;
   state_.correction_known = true;
-  state_.holds = axes;
+  state_.holds = {true, true, true};
 }
 
 bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const {
@@ -64,7 +63,7 @@ void Emitter::emit_fixed(std::size_t m) {
     edits = edits || (move.words[axis] && along != 0);
   }
   if (!edits) return pass(move);
-  put({.edit = shifted(m, shift), .in_part = true});
+  put(shifted(m, shift), Extent::held);
 }
 
 MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
@@ -87,26 +86,23 @@ void Emitter::keep_standing_axes(const Move& move, MoveEdit& edit) {
 }
 
 // The correction that holds, as a shift of the block's words: nothing is inserted to split it.
-void Emitter::emit_rigid(std::size_t m, Index s, Kind otherwise) {
+void Emitter::emit_rigid(std::size_t m, Index s) {
   const Move& move = job_.program.moves[m];
   if (!pending_.empty() && !all_known(move.known_end)) return pending_.push_back(m);
   leave_pending_alone();
   if (!state_.correction_known) return leave_alone(move);
   const Vector3 shift = held_shift_mm(move);
-  EmittedMove emitted{.edit = shifted(m, shift), .kind = otherwise};
-  if (move.handling == Handling::held && !move.cycle) keep_standing_axes(move, emitted.edit);
+  MoveEdit edit = shifted(m, shift);
+  if (move.handling == Handling::held && !move.cycle) keep_standing_axes(move, edit);
   if (move.cycle) {
-    emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
-    emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
+    edit.bottom_mm = move.cycle->bottom_mm + shift.z();
+    edit.retract_mm = move.cycle->retract_mm + shift.z();
   }
-  if (move.handling != Handling::own) {
-    emitted.in_part = true;
-    if (s && !move.cycle) emitted.kind = Kind::segment;
-    if (s && move.arc && move.handling == Handling::group && group_motion_)
-      divide_by_height(move, *s, emitted.edit);
-    if (s && move.handling == Handling::group) set_height_inside(*s, emitted.edit.end_mm, emitted.edit);
+  if (s && move.handling == Handling::group) {
+    if (move.arc && group_motion_) divide_by_height(move, *s, edit);
+    set_height_inside(*s, edit.end_mm, edit);
   }
-  put(std::move(emitted));
+  put(std::move(edit), move.handling == Handling::own ? Extent::whole : Extent::held);
 }
 
 // After a block that '/' may skip, or that goes to an unknown place, the correction with which it
@@ -118,8 +114,8 @@ void Emitter::emit_doubtful(std::size_t m) {
        "the "
        "correction that holds there");
   const Vector3 shift = held_shift_mm(move);
-  put({.edit = shifted(m, shift), .in_part = true});
-  set_shift(move, shift);
+  put(shifted(m, shift), Extent::held);
+  state_.correction = correction_of(move, shift);
   for (std::size_t axis = 0; axis < 3; ++axis)
     state_.holds[axis] = state_.holds[axis] || move.known_end[axis];
 }
@@ -133,8 +129,7 @@ bool Emitter::keeps_correction(const Move& move) const {
 }
 
 void Emitter::leave_alone(const Move& move) {
-  if (keeps_correction(move))
-    return emit_doubtful(static_cast<std::size_t>(&move - job_.program.moves.data()));
+  if (keeps_correction(move)) return emit_doubtful(index_of(move));
   list(move, "an axis has no known position here, and none follows within 64 blocks");
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (move.words[axis] && !is_relative(move, axis)) state_.holds[axis] = false;
@@ -161,7 +156,7 @@ void Emitter::refuse(const Move& move, std::string what) {
 
 // The coordinates may move under the tool from one move to the next.
 void Emitter::come_to(const Move& move) {
-  const auto m = static_cast<std::size_t>(&move - job_.program.moves.data());
+  const std::size_t m = index_of(move);
   if (held_for_ && m <= *held_for_) return;
   if (const Move* last = move_before(job_.program, m))
     state_.held = text_position_between(*last, move, state_.held);
@@ -178,13 +173,23 @@ TextPosition Emitter::before(const Move& move) {
 }
 
 void Emitter::go_through(const Move& move, const Via& via, TextPosition& held) const {
-  const Curve read = as_written(move, held, via, false, job_.options.write);
-  for (Eigen::Index axis = 0; axis < 3; ++axis) held[static_cast<std::size_t>(axis)] = read.end[axis];
+  held.set(as_written(move, held, via, false, job_.options.write).end);
 }
 
-void Emitter::put(EmittedMove emitted) {
-  take_in(emitted.edit);
-  out_.moves.push_back(std::move(emitted));
+void Emitter::put(MoveEdit edit, Extent extent) {
+  take_in(edit);
+  count(job_.program.moves[edit.move], extent);
+  out_.edits.push_back(std::move(edit));
+}
+
+void Emitter::count(const Move& move, Extent extent) {
+  OtherMoves& others = out_.other_moves;
+  if (extent == Extent::whole)
+    ++out_.corrected_moves;
+  else if (move.handling == Handling::group)
+    ++others.grouped;
+  else
+    ++(extent == Extent::in_part ? others.in_part : others.held);
 }
 
 void Emitter::take_in(const MoveEdit& edit) {

@@ -18,7 +18,7 @@ constexpr std::size_t look_ahead = 64;  // blocks
 // hole a cutting force acts.
 std::optional<Emitter::PositionCorrection> Emitter::solve_position(const Vector3& wanted, const Move& move) {
   const Model& model = model_with(job_.model, job_.tools, move.tool);
-  const auto index = static_cast<std::size_t>(&move - job_.program.moves.data());
+  const std::size_t index = index_of(move);
   if (ends_as_programmed(job_, index)) return PositionCorrection{-frame(move).datum_shift, Vector3::Zero()};
   const TargetRequest request{&model, wanted, job_.forces.in_hole(index), orientation_of(job_, move),
                               directions_at(job_, index, 1, Side::before)};
@@ -48,7 +48,7 @@ void Emitter::leave_far_pending_alone(const Move& move) {
 // Words before the first known position take its correction.
 void Emitter::give_to_pending() {
   for (std::size_t p : pending_)
-    put({.edit = shifted(p, shift_mm(job_.program.moves[p], state_.correction))});
+    put(shifted(p, shift_mm(job_.program.moves[p], state_.correction)), Extent::whole);
   pending_.clear();
 }
 
@@ -60,16 +60,15 @@ void Emitter::emit_first_known(std::size_t m) {
   const Vector3& correction = solved->shift;
   leave_far_pending_alone(move);
   const Vector3 kept = correction_that_can_be_written(move, correction);
-  hold(kept, {true, true, true});
+  hold(kept);
   state_.turn = solved->turn;
   give_to_pending();
   if (kept != correction)
     list_held_words(move, correction - kept);
   else if (move.motion == Motion::feed)
     list(move, "a feed move from a position that is not known: its end is corrected without cutting force");
-  put({.edit = shifted(m, shift_mm(move, state_.correction)),
-       .kind = Kind::alone,
-       .in_part = kept != correction || move.motion == Motion::feed});
+  const bool in_part = kept != correction || move.motion == Motion::feed;
+  put(shifted(m, shift_mm(move, state_.correction)), in_part ? Extent::in_part : Extent::whole);
 }
 
 // A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
@@ -81,28 +80,28 @@ void Emitter::emit_hole(std::size_t m) {
   if (!solved) return;
   Vector3 shift = shift_mm(move, solved->shift);
   const Vector3 entered = held_shift_mm(move);
-  EmittedMove emitted{.edit = {.move = m}, .kind = Kind::alone};
+  MoveEdit edit{.move = m};
+  Extent extent = Extent::whole;
   if (!move.cycle->bottom_word && !move.cycle->may_insert_bottom) {
     const double miss = shift.z() - entered.z();
     if (!rounds_to_nothing(move, 2, miss)) {
       list(move, fmt::format("the block takes no Z word: the hole's bottom stays off by {:.4f} mm", miss));
-      emitted.in_part = true;
+      extent = Extent::in_part;
     }
     shift.z() = entered.z();
   }
-  emitted.edit.bottom_mm = move.cycle->bottom_mm + shift.z();
-  emitted.edit.retract_mm = move.cycle->retract_mm + shift.z();
-  emitted.edit.end_mm = move.end_mm + shift;
+  edit.bottom_mm = move.cycle->bottom_mm + shift.z();
+  edit.retract_mm = move.cycle->retract_mm + shift.z();
+  edit.end_mm = move.end_mm + shift;
   const bool held_z = state_.holds[2];
   leave_far_pending_alone(move);
-  set_shift(move, shift);
-  state_.holds = {true, true, true};
+  hold(correction_of(move, shift));
   give_to_pending();
-  put(std::move(emitted));
+  put(std::move(edit), extent);
   // The text determines where the cycle leaves the tool.
   if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();
   if (!move.known_end[2]) shift.z() = entered.z();
-  set_shift(move, shift);
+  state_.correction = correction_of(move, shift);
   state_.holds[2] = state_.held[2] || held_z;
 }
 

@@ -24,8 +24,10 @@ class Emitter {
   Emission run();
 
  private:
-  using Kind = EmittedMove::Kind;
   using Index = std::optional<std::size_t>;  ///< of a segment, where a move has one
+
+  /// How a move is corrected: all of it by itself, in some axes or without its force, or as another one.
+  enum class Extent { whole, in_part, held };
 
   /// What a move that is not split misses: inside of it (m), and of the orientation at its end (rad).
   struct UnsplitMiss {
@@ -35,17 +37,15 @@ class Emitter {
   // emit.cpp
   void emit_move(std::size_t m, Index s);
   void emit_segment(std::size_t s);
-  void emit_line(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                 UnsplitMiss& miss);
+  void emit_line(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, UnsplitMiss& miss);
   void finish_segment(const Segment& segment, const PlannedSegment& planned, const UnsplitMiss& miss,
-                      EmittedMove& emitted);
+                      MoveEdit edit);
   /// A point of the text for a command at a fraction of the move.
   Via via_of(const Move& move, const TargetCommand& command, double u) const;
-  bool put_jump(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted, double& jump);
+  bool put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, double& jump);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
   Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
 
-  // emit_corners.cpp
   struct EndHeights {
     double start_mm, end_mm;
   };
@@ -54,18 +54,17 @@ class Emitter {
   double corner_height_mm(std::size_t s, const EndHeights& heights) const;
 
   // emit_arc.cpp
-  void emit_arc(const Segment& segment, const PlannedSegment& planned, EmittedMove& emitted,
-                UnsplitMiss& miss);
+  void emit_arc(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, UnsplitMiss& miss);
   ArcTask arc_task(const Segment& segment, const PlannedSegment& planned,
                    const CorrectionCurve& stretch) const;
-  void put_one_arc(const ArcTask& task, EmittedMove& emitted, UnsplitMiss& miss);
+  void put_one_arc(const ArcTask& task, MoveEdit& edit, UnsplitMiss& miss);
   void keep_turn_limits(const ArcTask& task, const FittedArc& fit, UnsplitMiss& miss);
 
   // emit_held.cpp
   void emit_fixed(std::size_t m);
   std::string why_fixed(const Move& move) const;
   MoveEdit shifted(std::size_t m, const Vector3& shift) const;
-  void emit_rigid(std::size_t m, Index s, Kind otherwise);
+  void emit_rigid(std::size_t m, Index s);
   void keep_standing_axes(const Move& move, MoveEdit& edit);
   void emit_doubtful(std::size_t m);
   void leave_pending_alone();
@@ -96,18 +95,22 @@ class Emitter {
   std::size_t index_of(const Segment& segment) const {
     return static_cast<std::size_t>(&segment - job_.path.segments.data());
   }
+  std::size_t index_of(const Move& move) const {
+    return static_cast<std::size_t>(&move - job_.program.moves.data());
+  }
   const WorkFrame& frame(const Move& move) const { return job_.path.frames[move.frame]; }
   Vector3 shift_mm(const Move& move, const Vector3& correction) const;
+  Vector3 correction_of(const Move& move, const Vector3& shift_mm) const;
   Vector3 held_shift_mm(const Move& move) const;  ///< zero on axes that hold none
-  void set_shift(const Move& move, const Vector3& shift_mm);
-  void hold(const Vector3& correction, const std::array<bool, 3>& axes);
+  void hold(const Vector3& correction);           ///< on all axes
   bool rounds_to_nothing(const Move& move, std::size_t axis, double shift_mm) const;
 
   // The text's position, before and after a move.
   void come_to(const Move& move);
   TextPosition before(const Move& move);
   void go_through(const Move& move, const Via& via, TextPosition& held) const;
-  void put(EmittedMove emitted);       ///< the next edit
+  void put(MoveEdit edit, Extent extent);  ///< the next edit
+  void count(const Move& move, Extent extent);
   void take_in(const MoveEdit& edit);  ///< what the text holds behind it
   void pass(const Move& move);         ///< a move without an edit
 

@@ -2,6 +2,7 @@
 /// The moves of a corrected program in order, read on as they are asked for.
 #include <deque>
 #include <functional>
+#include <span>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
@@ -59,6 +60,11 @@ class CorrectedMoves {
 
   /// The move `index` places on, until more is read; null behind the last one.
   const CorrectedMove* at(std::size_t index);
+
+  /// The first `count` moves, which `at` has found, until more is read.
+  std::span<const CorrectedMove> first(std::size_t count) const {
+    return std::span(moves_).subspan(first_, count);
+  }
 
   /// Removes the first `count` moves.
   void drop(std::size_t count);

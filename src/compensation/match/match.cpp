@@ -1,10 +1,8 @@
 #include "compensation/match/match.hpp"
 
-#include <algorithm>
 #include <utility>
 
 #include "compensation/match/match_moves.hpp"
-#include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 
@@ -24,7 +22,7 @@ Failure not_found(const Move& original, std::size_t others, CorrectedMoves& foun
 }
 
 void add_hole(const Job& job, const MatchedMoves& matched, std::vector<DraftPiece>& drafts) {
-  const Move &original = matched.original, &found = *matched.found.back().move;
+  const Move &original = matched.original, &found = matched.last();
   if (!original.cycle || !original.known_end[0] || !original.known_end[1]) return;
   Piece piece = piece_of_hole(job, original, found);
   piece.corrected_line = found.line;
@@ -39,7 +37,7 @@ void add_position(const Job& job, const MatchedMoves& matched, bool skipped,
   const Move& original = matched.original;
   const bool known = all_known(original.known_end) && !all_known(original.known_start);
   if (!known || matched.segment || original.cycle) return;
-  const Move& found = *matched.found.back().move;
+  const Move& found = matched.last();
   Piece piece = piece_of_position(job, original, found);
   piece.corrected_line = found.line;
   piece.exempt_end = original.handling != Handling::own || !takes_all_words(original) ||
@@ -58,47 +56,27 @@ struct MatchState {
 };
 
 /// Matches move `m` of the window and adds its drafts. Returns the failure if it has no counterpart.
-std::optional<Failure> match_move(const Job& job, const PlannedWays& ways, std::size_t m, std::size_t others,
+std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t m, std::size_t others,
                                   MoveFinder& finder, CorrectedMoves& found, MatchState& state) {
   const Move& original = job.program.moves[m];
   const std::vector<Segment>& segments = job.path.segments;
   std::optional<std::size_t> segment;
   if (state.next_segment < segments.size() && segments[state.next_segment].move == m)
     segment = state.next_segment++;
-  const MatchedMoves matched{original, segment, finder.find(m, segment, others), finder.words()};
+  const MatchedMoves matched = finder.find(m, segment, others);
   if (matched.found.empty()) return not_found(original, others, found, state.last_line);
   if (auto failure = frame_failure(job, matched)) return failure;
-  if (auto failure = kind_failure(job, ways, matched)) return failure;
+  if (auto failure = kind_failure(job, plan, matched)) return failure;
   if (auto failure = shift_failure(job, m, matched, state.shifts)) return failure;
   if (auto failure = words_failure(job, matched)) return failure;
   if (auto failure = zone_failure(job, matched, state.zone)) return failure;
-  if (segment && !original.cycle) add_pieces(job, ways, matched, state.drafts);
+  if (segment && !original.cycle) add_pieces(job, plan, matched, state.drafts);
   add_hole(job, matched, state.drafts);
   add_position(job, matched, state.skipped, state.drafts);
-  state.last_line = matched.found.back().move->line;
+  state.last_line = matched.last().line;
   found.drop(matched.found.size());
   state.skipped = leaves_doubt(original, state.skipped);
   return std::nullopt;
-}
-
-constexpr double least_jump = 1e-9;  // m: of the correction
-
-// A segment that does not begin where the one before it ends is preceded by a jump.
-bool may_jump(const PlannedWays& ways, std::size_t s, const PlannedSegment& planned) {
-  if (planned.starts_anywhere || (planned.knots.empty() && !planned.end)) return false;
-  return s == 0 || !ways[s - 1].end || (*ways[s - 1].end - planned.start.target).norm() > least_jump;
-}
-
-// Where the curves of the correction of an arc meet, by a step or without one.
-void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Knot>& knots) {
-  for (std::size_t i = 1; i < planned.arc.size(); ++i) {
-    const CorrectionCurve &before = planned.arc[i - 1], &behind = planned.arc[i];
-    const double u = behind.begin();
-    const Vector3 p = point_at(arc, u), ends = shift_of(before.intervals().back().nodes.back().c),
-                  begins = shift_of(behind.at(u));
-    knots.push_back({{p + ends}, u});
-    if ((begins - ends).norm() > least_jump) knots.push_back({{p + begins}, u});
-  }
 }
 
 // Compares as many lines without a move as both programs have given.
@@ -111,48 +89,15 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   return std::nullopt;
 }
 
-// The correction at eighths of an arc, beside the straight line between those at its ends.
-double bend_of(const PlannedSegment& planned) {
-  if (planned.arc.empty()) return 0;
-  const auto shift_at = [&](double u) {
-    const auto later =
-        std::ranges::find_if(planned.arc, [&](const auto& stretch) { return stretch.end() > u; });
-    return shift_of((later != planned.arc.end() ? *later : planned.arc.back()).at(u));
-  };
-  const Vector3 first = shift_at(0), last = shift_at(1);
-  double largest = 0;
-  for (int k = 1; k < eighths; ++k) {
-    const double u = static_cast<double>(k) / eighths;
-    largest = std::max(largest, (shift_at(u) - (1 - u) * first - u * last).norm());
-  }
-  return largest;
-}
-
 }  // namespace
 
-PlannedWays planned_ways(const Job& job, const Plan& plan) {
-  PlannedWays ways(plan.segments.size());
-  for (std::size_t s = 0; s < ways.size(); ++s) {
-    const PlannedSegment& planned = plan.segments[s];
-    PlannedWay& way = ways[s];
-    if (planned.end) way.end = planned.end->target;
-    if (!way.end && !planned.knots.empty()) way.end = planned.knots.back().target;
-    if (may_jump(ways, s, planned)) way.inner.push_back({planned.start, 0});
-    if (planned.knots.size() > 1)
-      way.inner.insert(way.inner.end(), planned.knots.begin(), planned.knots.end() - 1);
-    add_borders(job.path.segments[s].wanted, planned, way.inner);
-    way.bend = bend_of(planned);
-  }
-  return ways;
-}
-
-Matching match_window(const Job& job, const PlannedWays& ways, OtherLines& lines, CorrectedMoves& found) {
+Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, CorrectedMoves& found) {
   Matching result;
   const std::vector<std::size_t> others = lines.add(job.program);
-  MoveFinder finder(job, ways, found);
+  MoveFinder finder(job, plan, found);
   MatchState state;
   for (std::size_t m = 0; m < job.program.moves.size() && !result.failure; ++m)
-    result.failure = match_move(job, ways, m, others[m], finder, found, state);
+    result.failure = match_move(job, plan, m, others[m], finder, found, state);
   if (!result.failure) result.failure = state.zone.smaller;
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
   if (!result.failure) result.pieces = refined(job, std::move(state.drafts));

@@ -1,11 +1,12 @@
 // Whether matched moves go as the original: rapid, line or arc, in its plane, sense and number of turns.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 #include <numbers>
 
 #include "compensation/match/match_moves.hpp"
-#include "compensation/plan/arc_angles.hpp"
+#include "compensation/plan/places.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -29,23 +30,40 @@ double in_plane(const Vector3& v, int normal) {
   return (v - v[normal] * Vector3::Unit(normal)).norm();
 }
 
+// By how much the correction leaves the straight line between those at its ends, at eighths of an arc (m).
+double bend_of(const PlannedSegment& planned) {
+  if (planned.arc.empty()) return 0;
+  const auto shift_at = [&](double u) {
+    const auto later =
+        std::ranges::find_if(planned.arc, [&](const auto& stretch) { return stretch.end() > u; });
+    return shift_of((later != planned.arc.end() ? *later : planned.arc.back()).at(u));
+  };
+  const Vector3 first = shift_at(0), last = shift_at(1);
+  double largest = 0;
+  for (int k = 1; k < eighths; ++k) {
+    const double u = static_cast<double>(k) / eighths;
+    largest = std::max(largest, (shift_at(u) - (1 - u) * first - u * last).norm());
+  }
+  return largest;
+}
+
 // Compares the moves that command one move of the original.
 class KindComparison {
  public:
-  KindComparison(const Job& job, const PlannedWays& ways, const MatchedMoves& matched)
-      : matched_(matched),
+  KindComparison(const Job& job, const Plan& plan, const MatchedMoves& matched)
+      : plan_(plan),
+        matched_(matched),
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
         tolerance_mm_(job.options.tolerance / mm),
         tilt_tolerance_(job.options.tilt_tolerance),
-        bend_mm_(matched.segment && *matched.segment < ways.size() ? ways[*matched.segment].bend / mm : 0),
         most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
                        mm) {}
 
   std::optional<Failure> run() {
     for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
     if (original_.arc && !failure_) compare_sweeps();
-    const Move& last = *matched_.found.back().move;
+    const Move& last = matched_.last();
     if (!matched_.segment && !failure_) compare_unjudged(last);
     if (!failure_) compare_shifts(last);
     if (original_.cycle && last.cycle && !failure_) compare_cycle(last);
@@ -54,7 +72,7 @@ class KindComparison {
 
  private:
   void fail(const Move& found, std::string what) {
-    failure_ = Failure{ErrorKind::not_compensated, original_.line, std::move(what), found.line};
+    failure_ = matched_.failure_at(found.line, std::move(what));
   }
 
   void compare(std::size_t i) {
@@ -84,7 +102,7 @@ class KindComparison {
 
   // About the centre where the correction at the start puts it.
   void add_sweep(const Move& found) {
-    const Move& first = *matched_.found.front().move;
+    const Move& first = matched_.first();
     if (!all_known(original_.known_start) || !all_known(first.known_start)) return;
     Arc axis = *curve_of(original_).arc;
     axis.centre += first.start_mm - original_.start_mm;
@@ -177,7 +195,8 @@ class KindComparison {
     const Vector3 at_start = found.start_mm - original_.start_mm, at_end = found.end_mm - original_.end_mm;
     const Vector3 shift = point_at(curve_of(found), 0.5) - point_at(curve_of(original_), 0.5);
     const double off = (shift - (at_start + at_end) / 2).norm();
-    const double room = (at_end - at_start).norm() + 2 * bend_mm_ + tolerance_mm_ + roundings * rounding_mm_;
+    const double bend_mm = matched_.segment ? bend_of(plan_.segments[*matched_.segment]) / mm : 0;
+    const double room = (at_end - at_start).norm() + 2 * bend_mm + tolerance_mm_ + roundings * rounding_mm_;
     if (off > room)
       fail(found,
            fmt::format("the middle of this arc is off by {:.4f} mm, between its ends {:.4f} mm are allowed",
@@ -189,7 +208,7 @@ class KindComparison {
   }
 
   void compare_sweeps() {
-    const Move& found = *matched_.found.back().move;
+    const Move& found = matched_.last();
     if (!all_known(original_.known_start) || !all_known(found.known_start)) return;
     const double wanted = curve_of(original_).arc->sweep, off = std::abs(sweep_ - wanted);
     if (off <= sweep_room || off * radius_mm() <= roundings * tolerance_mm_) return;
@@ -226,7 +245,7 @@ class KindComparison {
 
   // No word is shifted by more than the limit of corrections.
   void compare_shifts(const Move& found) {
-    const Vector3& start = matched_.found.front().move->start_mm;
+    const Vector3& start = matched_.first().start_mm;
     for (std::size_t axis = 0; axis < 3 && !failure_; ++axis) {
       const auto k = static_cast<Eigen::Index>(axis);
       if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
@@ -257,9 +276,10 @@ class KindComparison {
                               shift, most_shift_mm_));
   }
 
+  const Plan& plan_;
   const MatchedMoves& matched_;
   const Move& original_;
-  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, bend_mm_, most_shift_mm_;
+  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, most_shift_mm_;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;                    // of the arcs and chords so far
   std::optional<Failure> failure_;
@@ -267,8 +287,8 @@ class KindComparison {
 
 }  // namespace
 
-std::optional<Failure> kind_failure(const Job& job, const PlannedWays& ways, const MatchedMoves& matched) {
-  return KindComparison(job, ways, matched).run();
+std::optional<Failure> kind_failure(const Job& job, const Plan& plan, const MatchedMoves& matched) {
+  return KindComparison(job, plan, matched).run();
 }
 
 }  // namespace counterflex

@@ -5,7 +5,6 @@
 #include <algorithm>
 #include <limits>
 
-#include "compensation/plan/arc_angles.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
@@ -53,8 +52,8 @@ std::size_t most_moves(const Move& original, bool has_segment) {
 
 std::optional<Vector3> MoveFinder::planned_shift_mm(const Move& original,
                                                     std::optional<std::size_t> segment) const {
-  if (!segment || *segment >= ways_.size() || !ways_[*segment].end) return std::nullopt;
-  return in_words_mm(job_, original, *ways_[*segment].end) - original.end_mm;
+  if (!segment || plan_.segments[*segment].knots.empty()) return std::nullopt;
+  return in_words_mm(job_, original, plan_.segments[*segment].knots.back().target) - original.end_mm;
 }
 
 // The shift of the move before, changed as planned: right for what was written as planned, and nearly right
@@ -67,9 +66,9 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
 }
 
 // The first moves that end where the original should, after a way that is about as long.
-std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
-                              std::size_t others) {
-  const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, segment));
+std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std::size_t others) {
+  const Move& original = matched.original;
+  const Vector3 end_mm = expected_end_mm(original, planned_shift_mm(original, matched.segment));
   const Curve curve = curve_of(original);
   const double length_mm = length(curve);
   double slack_mm = 2 * job_.options.max_correction / mm;
@@ -94,7 +93,7 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
     if (found == nullptr || found->others != others) break;
     if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
     gone_mm += way_mm(*found->move);
-    if ((!turns_rigidly || found->move->arc) && may_end(original, words_, *found, j)) {
+    if ((!turns_rigidly || found->move->arc) && may_end(original, matched.words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
       // This end is rounded, and the one before, whose shift is expected here: no other end is as near.
@@ -103,43 +102,37 @@ std::size_t MoveFinder::count(const Move& original, std::optional<std::size_t> s
       const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;
     }
-    if (!may_go_on(original, words_, *found, j) || gone_mm > length_mm + 2 * job_.options.max_correction / mm)
+    if (!may_go_on(original, matched.words, *found, j) ||
+        gone_mm > length_mm + 2 * job_.options.max_correction / mm)
       break;
   }
   return best;
 }
 
-std::span<const CorrectedMove> MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
-                                                std::size_t others) {
+MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment, std::size_t others) {
   const Move& original = job_.program.moves[m];
+  MatchedMoves matched{original, segment, {}, kept_words(job_.program, original)};
   const CorrectedMove* first = found_.at(0);
-  if (first == nullptr || first->others != others) return {};
+  if (first == nullptr || first->others != others) return matched;
   if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))
     shift_mm_ = first->move->start_mm - original.start_mm;
   if (frame_ != original.frame) planned_shift_mm_.reset(), shift_mm_.reset();
-  words_ = kept_words(job_.program, original);
   next_number_.reset();
   if (m + 1 < job_.program.moves.size()) next_number_ = job_.program.moves[m + 1].block_number;
   if (next_number_ == original.block_number || job_.program.dialect == "heidenhain") next_number_.reset();
   const std::size_t most = most_moves(original, segment.has_value());
-  const std::size_t count = most == 1 ? 1 : this->count(original, segment, most, others);
-  matched_.clear();
-  for (std::size_t j = 0; j < count; ++j) matched_.push_back(*found_.at(j));
-  if (count == 0) return {};
+  matched.found = found_.first(most == 1 ? 1 : count(matched, most, others));
+  if (matched.found.empty()) return matched;
   planned_shift_mm_ = planned_shift_mm(original, segment);
   frame_ = original.frame;
-  const Move& last = *matched_.back().move;
-  if (all_known(original.known_end)) shift_mm_ = last.end_mm - original.end_mm;
-  rounding_mm_ = rounding_as_read(last) / mm;
-  return matched_;
+  if (all_known(original.known_end)) shift_mm_ = matched.last().end_mm - original.end_mm;
+  rounding_mm_ = rounding_as_read(matched.last()) / mm;
+  return matched;
 }
 
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
   const Move& original = matched.original;
   const std::string& wanted = matched.words;
-  const auto fail = [&](const CorrectedMove& found, std::string what) {
-    return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.move->line};
-  };
   std::size_t own_blocks = 0;
   // A restart at the number of a block runs the whole move. In Klartext all blocks are numbered in order.
   const bool klartext = job.program.dialect == "heidenhain";
@@ -152,9 +145,10 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     const std::string& words = found.words;
     if (are_copies(found)) {
       if (!are_alike(words, wanted))
-        return fail(found, "the words besides coordinates are not those of the original's statement");
+        return matched.failure_at(move.line,
+                                  "the words besides coordinates are not those of the original's statement");
       if (move.feed_mm_min != original.feed_mm_min || move.tool != original.tool)
-        return fail(found, "the feed or the tool is not that of the original");
+        return matched.failure_at(move.line, "the feed or the tool is not that of the original");
       own_blocks = 1;
       continue;
     }
@@ -163,20 +157,22 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
                            move.feed_mm_min == original.feed_mm_min;
     if (matched.found.size() == 1 && words != wanted)
-      return fail(found, "the words besides coordinates are not those of the original's block");
+      return matched.failure_at(move.line,
+                                "the words besides coordinates are not those of the original's block");
     if (words != wanted && !plain)
-      return fail(found, "an inserted block may hold motion, axes and the feed that acts, nothing else");
+      return matched.failure_at(
+          move.line, "an inserted block may hold motion, axes and the feed that acts, nothing else");
     if (!is_numbered_rightly(move, &found == &matched.found.front()))
-      return fail(
-          found,
+      return matched.failure_at(
+          move.line,
           "the N of a block belongs to its first piece, and other pieces of a block without N have none");
     if (!same_feed)
-      return fail(found, fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
-                                     move.feed_mm_min, original.feed_mm_min));
+      return matched.failure_at(move.line,
+                                fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
+                                            move.feed_mm_min, original.feed_mm_min));
   }
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
-    return fail(matched.found.back(),
-                "the words of the original's block are in several blocks here, or in no block");
+    return matched.failure("the words of the original's block are in several blocks here, or in no block");
   return std::nullopt;
 }
 

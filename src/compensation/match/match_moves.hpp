@@ -16,38 +16,37 @@ struct MatchedMoves {
   const Move& original;
   std::optional<std::size_t> segment;
   std::span<const CorrectedMove> found;  ///< the last one holds the block of the original, or its last piece
-  const std::string& words;              ///< `kept_words` of the original
+  std::string words;                     ///< `kept_words` of the original
+
+  const Move& first() const { return *found.front().move; }
+  const Move& last() const { return *found.back().move; }
+
+  /// Of the last move, or of another line of the corrected program.
+  Failure failure(std::string what) const { return failure_at(last().line, std::move(what)); }
+  Failure failure_at(int corrected_line, std::string what) const {
+    return {ErrorKind::not_compensated, original.line, std::move(what), corrected_line};
+  }
 };
 
 /// Finds them, move by move. Inserted blocks come before the block that they split, follow its path, and hold
 /// motion, axes and F.
 class MoveFinder {
  public:
-  MoveFinder(const Job& job, const PlannedWays& ways, CorrectedMoves& found)
-      : job_(job), ways_(ways), found_(found) {}
+  MoveFinder(const Job& job, const Plan& plan, CorrectedMoves& found)
+      : job_(job), plan_(plan), found_(found) {}
 
-  /// Those of move `m`, with `others` lines without a move before it; empty if no move matches. They begin
-  /// at the first move that was not dropped.
-  std::span<const CorrectedMove> find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
-
-  /// `kept_words` of the original whose moves were found last.
-  const std::string& words() const { return words_; }
-
-  /// By how much the correction of `found` shifts the end of the move that was found last (program
-  /// coordinates, mm).
-  const std::optional<Vector3>& shift_mm() const { return shift_mm_; }
+  /// Those of move `m`, with `others` lines without a move before it; `found` is empty if no move matches.
+  /// They begin at the first move that was not dropped, and are valid until more is read or dropped.
+  MatchedMoves find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
 
  private:
-  std::size_t count(const Move& original, std::optional<std::size_t> segment, std::size_t most,
-                    std::size_t others);
+  std::size_t count(const MatchedMoves& matched, std::size_t most, std::size_t others);
   Vector3 expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const;
   std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
 
   const Job& job_;
-  const PlannedWays& ways_;
+  const Plan& plan_;
   CorrectedMoves& found_;
-  std::vector<CorrectedMove> matched_;
-  std::string words_;                        // of the original
   std::optional<Vector3> shift_mm_;          // of the move before
   double rounding_mm_ = 0;                   // of that shift, as it was read
   std::optional<Vector3> planned_shift_mm_;  // the same, as it was planned
@@ -58,7 +57,7 @@ class MoveFinder {
 /// Whether matched moves go as the original, rapid, line or arc, in its plane, sense and number of turns: the
 /// failure of the first that does not. Chords of an arc are right where they follow it within the tolerance.
 /// Also the failure of moves that no piece judges and that are shifted by more than a correction may.
-std::optional<Failure> kind_failure(const Job& job, const PlannedWays& ways, const MatchedMoves& matched);
+std::optional<Failure> kind_failure(const Job& job, const Plan& plan, const MatchedMoves& matched);
 
 /// What an inserted block, or a piece of the original's block, must not hold; nothing where all is right.
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched);
@@ -100,12 +99,12 @@ struct DraftPiece {
 /// tolerance of a knot of the plan has the knot's fraction. Any other gets the fraction to which it projects:
 /// on a line along it, on an arc by its angle about the centre, over all turns; no error of a fraction
 /// reaches the next one.
-void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& matched,
+void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
                 std::vector<DraftPiece>& pieces);
 
-/// The fraction of an inserted point is that of the place of the tip along the segment,
-/// found from the projected one by Newton's method. A jump of the correction at the start of a segment, and
-/// what goes backwards, gives no piece: what follows begins where it ends, and is judged from there on.
+/// The fraction of an inserted point is that of the place of the tip along the segment, found from the
+/// projected one by Newton's method. A jump of the correction, and what goes backwards, gives no piece: what
+/// follows begins where it ends, and is judged from there on.
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

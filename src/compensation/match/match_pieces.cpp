@@ -3,7 +3,6 @@
 #include <numbers>
 
 #include "compensation/match/match_moves.hpp"
-#include "compensation/plan/arc_angles.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/solver.hpp"
@@ -28,127 +27,146 @@ double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
   return (angle + turn * std::round((expected - angle) / turn)) / arc.arc->sweep;
 }
 
-// A move of the corrected program, and the fraction at which it ends.
-struct Step {
-  Curve way;
-  BoxedOptional<Turn> turn{};
-  int line = 0;
-  double u = -1;  // not yet known
-  bool settled = false;
-  bool jump = false;
-};
+constexpr double not_known = -1;  // a fraction
 
-std::vector<Step> steps_of(const Job& job, const MatchedMoves& matched) {
-  std::vector<Step> steps;
-  Vector3 from = job.path.segments[*matched.segment].wanted.start;
+// The pieces of matched moves. The fraction at the end of the last one alone is known.
+std::vector<DraftPiece> drafts_of(const Job& job, const MatchedMoves& matched) {
+  const Segment& segment = job.path.segments[*matched.segment];
+  const Move& original = matched.original;
+  const bool own = original.handling == Handling::own;
+  std::vector<DraftPiece> drafts;
+  Vector3 from = segment.wanted.start;
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
-    Step& step = steps.emplace_back();
-    step.way = all_known(move.known_start) ? command_of(job, move) : Curve{from, target_of(job, move), {}};
-    step.turn = turn_of(job, move);
-    step.line = move.line;
-    from = step.way.end;
+    const bool is_last = &found == &matched.found.back();
+    const Curve way =
+        all_known(move.known_start) ? command_of(job, move) : Curve{from, target_of(job, move), {}};
+    drafts.push_back({{.segment = *matched.segment,
+                       .line = segment.line,
+                       .corrected_line = move.line,
+                       .u1 = is_last ? 1 : not_known,
+                       .frame = segment.frame,
+                       .commanded = way,
+                       .turn = turn_of(job, move),
+                       .end_only = !segment.cutting,
+                       .exempt = !own || !original.may_split,
+                       .exempt_end = !own || !takes_all_words(original) || (original.corners && !is_last)},
+                      is_last});
+    from = way.end;
   }
-  steps.back().u = 1;
-  steps.back().settled = true;
-  return steps;
+  return drafts;
 }
 
-// Whether a step from `next` on ends at a knot; `next` goes behind it.
-bool find_knot(const Knot& knot, double tolerance, std::vector<Step>& steps, std::size_t& next) {
-  std::size_t best = steps.size();
+constexpr double least_jump = 1e-9;  // m: of the correction
+
+// A segment that does not begin where the one before it ends is preceded by a jump.
+bool may_jump(const Plan& plan, std::size_t s) {
+  const PlannedSegment& planned = plan.segments[s];
+  if (planned.starts_anywhere || planned.knots.empty()) return false;
+  const bool follows = s > 0 && !plan.segments[s - 1].knots.empty();
+  return !follows || (plan.segments[s - 1].knots.back().target - planned.start.target).norm() > least_jump;
+}
+
+// Where the curves of the correction of an arc meet, by a step or without one.
+void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Knot>& knots) {
+  for (std::size_t i = 1; i < planned.arc.size(); ++i) {
+    const CorrectionCurve &before = planned.arc[i - 1], &behind = planned.arc[i];
+    const double u = behind.begin();
+    const Vector3 p = point_at(arc, u), ends = shift_of(before.at(before.end())),
+                  begins = shift_of(behind.at(u));
+    knots.push_back({{p + ends}, u});
+    if ((begins - ends).norm() > least_jump) knots.push_back({{p + begins}, u});
+  }
+}
+
+// Knots of the plan before the end of a segment, in order.
+std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
+  const PlannedSegment& planned = plan.segments[s];
+  std::vector<Knot> knots;
+  if (may_jump(plan, s)) knots.push_back({planned.start, 0});
+  if (planned.knots.size() > 1) knots.insert(knots.end(), planned.knots.begin(), planned.knots.end() - 1);
+  add_borders(job.path.segments[s].wanted, planned, knots);
+  return knots;
+}
+
+void settle(DraftPiece& draft, double u) {
+  draft.piece.u1 = u;
+  draft.settled = true;
+}
+
+// Whether a piece from `next` on ends at a knot; `next` goes behind it.
+bool find_knot(const Knot& knot, double tolerance, std::vector<DraftPiece>& drafts, std::size_t& next) {
+  std::size_t best = drafts.size();
   double best_miss = tolerance;
-  for (std::size_t j = next; j + 1 < steps.size(); ++j) {
-    const double miss = (steps[j].way.end - knot.target).norm();
+  for (std::size_t j = next; j + 1 < drafts.size(); ++j) {
+    const double miss = (drafts[j].piece.commanded.end - knot.target).norm();
     if (miss >= best_miss) continue;
     best = j;
     best_miss = miss;
   }
-  if (best == steps.size()) return false;
-  steps[best].u = knot.u;
-  steps[best].settled = true;
+  if (best == drafts.size()) return false;
+  settle(drafts[best], knot.u);
   next = best + 1;
   return true;
 }
 
-bool find_jump(const Knot& knot, double tolerance, std::vector<Step>& steps, std::size_t& next) {
-  const Vector3 end = steps[next].way.end;
-  if ((end - knot.target).norm() > tolerance) return false;
-  // What is left of the way behind the jump may be less than a digit.
-  if (next + 1 == steps.size())
-    steps.push_back({{end, end, {}}, steps.back().turn, steps.back().line, 1, true});
-  steps[next].u = knot.u;
-  steps[next].settled = steps[next].jump = true;
+bool find_jump(const Knot& knot, double tolerance, std::vector<DraftPiece>& drafts, std::size_t& next) {
+  if ((drafts[next].piece.commanded.end - knot.target).norm() > tolerance) return false;
+  settle(drafts[next], knot.u);
   ++next;
   return true;
 }
 
 // Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move
 // ends on this side of the step and the next one on the other.
-void find_knots(std::span<const Knot> knots, double tolerance, std::vector<Step>& steps) {
-  std::size_t next = 0;  // step
+void find_knots(std::span<const Knot> knots, double tolerance, std::vector<DraftPiece>& drafts) {
+  std::size_t next = 0;  // piece
   const Knot* last = nullptr;
   for (const Knot& knot : knots) {
-    if (next + 1 >= steps.size()) return;
+    if (next + 1 >= drafts.size()) return;
     const bool behind = last != nullptr && last->u == knot.u;
     const bool found =
-        behind ? find_jump(knot, tolerance, steps, next) : find_knot(knot, tolerance, steps, next);
+        behind ? find_jump(knot, tolerance, drafts, next) : find_knot(knot, tolerance, drafts, next);
     last = found ? &knot : nullptr;
   }
 }
 
 // The correction changes evenly enough from one end of the segment to the other for a first guess.
-void project(const Curve& wanted, std::vector<Step>& steps) {
-  const Vector3 c0 = steps.front().way.start - wanted.start, c1 = steps.back().way.end - wanted.end;
+void project(const Curve& wanted, std::vector<DraftPiece>& drafts) {
+  const Vector3 c0 = drafts.front().piece.commanded.start - wanted.start,
+                c1 = drafts.back().piece.commanded.end - wanted.end;
   double last = 0;  // fraction
-  for (Step& step : steps) {
-    if (step.u < 0) {
+  for (DraftPiece& draft : drafts) {
+    const Curve& way = draft.piece.commanded;
+    draft.piece.u0 = last;
+    if (!draft.settled) {
       double expected = 0;
       if (wanted.arc) {
         Arc shifted = *wanted.arc;
         shifted.centre += (1 - last) * c0 + last * c1;
-        expected = last * wanted.arc->sweep + angle_about(shifted, step.way);
+        expected = last * wanted.arc->sweep + angle_about(shifted, way);
       }
       double u = wanted.arc ? expected / wanted.arc->sweep : last;
       for (int k = 0; k < 2; ++k) {
-        const Vector3 p = step.way.end - (1 - u) * c0 - u * c1;
+        const Vector3 p = way.end - (1 - u) * c0 - u * c1;
         u = wanted.arc ? fraction_on_arc(wanted, p, expected) : fraction_on_line(wanted, p);
       }
-      step.u = std::clamp(u, last, inner_end);
+      draft.piece.u1 = std::clamp(u, last, inner_end);
     }
-    last = step.u;
+    last = draft.piece.u1;
   }
 }
 
 }  // namespace
 
-void add_pieces(const Job& job, const PlannedWays& ways, const MatchedMoves& matched,
+void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
                 std::vector<DraftPiece>& pieces) {
-  const std::size_t s = *matched.segment;
-  const Segment& segment = job.path.segments[s];
-  const Move& original = matched.original;
-  const bool own = original.handling == Handling::own;
-  std::vector<Step> steps = steps_of(job, matched);
-  if (s < ways.size()) find_knots(ways[s].inner, job.options.tolerance, steps);
-  if (steps.size() > 1) project(segment.wanted, steps);
-  double u0 = 0;
-  for (const Step& step : steps) {
-    if (!step.jump)
-      pieces.push_back(
-          {{.segment = s,
-            .line = segment.line,
-            .corrected_line = step.line,
-            .u0 = u0,
-            .u1 = step.u,
-            .frame = segment.frame,
-            .commanded = step.way,
-            .turn = step.turn,
-            .end_only = !segment.cutting,
-            .exempt = !own || !original.may_split,
-            .exempt_end = !own || !takes_all_words(original) || (original.corners && &step != &steps.back())},
-           step.settled});
-    u0 = step.u;
+  std::vector<DraftPiece> drafts = drafts_of(job, matched);
+  if (drafts.size() > 1) {
+    find_knots(inner_knots(job, plan, *matched.segment), job.options.tolerance, drafts);
+    project(job.path.segments[*matched.segment].wanted, drafts);
   }
+  for (DraftPiece& draft : drafts) pieces.push_back(std::move(draft));
 }
 
 namespace {

@@ -36,43 +36,36 @@ std::string without_heights(const CalledCycle& cycle) {
 // The surface from which the held holes of a Klartext cycle count goes along with them: they keep the shift
 // with which they are entered. The others are judged where they are.
 std::optional<Failure> surface_failure(const MatchedMoves& matched, CarriedShifts& carried) {
-  const Move &original = matched.original, &found = *matched.found.back().move;
+  const Move &original = matched.original, &found = matched.last();
   if (is_robot_dialect(matched.found.back().program->dialect)) return std::nullopt;  // named targets
   const double shift = found.end_mm.z() - original.end_mm.z();
   if (takes_surface(original) != takes_surface(found))
-    return Failure{
-        ErrorKind::not_compensated, original.line,
-        "this hole takes the height of its surface from a cycle's definition in one of both programs only",
-        found.line};
+    return matched.failure(
+        "this hole takes the height of its surface from a cycle's definition in one of both programs only");
   const bool held = original.handling == Handling::held;
   if (takes_surface(original) && held && std::abs(shift - carried.height_mm) > height_rounding_mm)
-    return Failure{
-        ErrorKind::not_compensated, original.line,
+    return matched.failure(
         fmt::format("the surface of this hole's cycle is shifted by {:.4f} mm, the hole by {:.4f} mm", shift,
-                    carried.height_mm),
-        found.line};
+                    carried.height_mm));
   if (!takes_surface(original) && original.known_end[2] && found.known_end[2]) carried.height_mm = shift;
   return std::nullopt;
 }
 
 // All heights of a called cycle go along with its reference plane, the first of them.
 std::optional<Failure> call_failure(const MatchedMoves& matched) {
-  const Move &original = matched.original, &found = *matched.found.back().move;
-  const auto fail = [&](std::string what) {
-    return Failure{ErrorKind::not_compensated, original.line, std::move(what), found.line};
-  };
+  const Move &original = matched.original, &found = matched.last();
   if (!original.called != !found.called)
-    return fail("a drilling cycle is called here in one of both programs only");
+    return matched.failure("a drilling cycle is called here in one of both programs only");
   if (!original.called) return std::nullopt;
   if (without_heights(*original.called) != without_heights(*found.called))
-    return fail("the cycle that MCALL calls here is not that of the original");
+    return matched.failure("the cycle that MCALL calls here is not that of the original");
   const double shift = found.end_mm.z() - original.end_mm.z();
   for (std::size_t i = 0; i < original.called->heights.size(); ++i) {
     if (!original.called->heights[i] != !found.called->heights[i])
-      return fail("a height of the cycle is given in one of both programs only");
+      return matched.failure("a height of the cycle is given in one of both programs only");
     const double other = found.called->heights_mm[i] - original.called->heights_mm[i];
     if (original.called->heights[i] && std::abs(other - shift) > height_rounding_mm)
-      return fail(fmt::format(
+      return matched.failure(fmt::format(
           "a height of the cycle is shifted by {:.4f} mm, its reference plane by {:.4f} mm", other, shift));
   }
   return std::nullopt;
@@ -91,7 +84,7 @@ void forget_lost_axes(const Job& job, std::size_t m, CarriedShifts& carried) {
 std::optional<Failure> axis_failure(const Job& job, std::size_t m, const MatchedMoves& matched,
                                     CarriedShifts& carried) {
   constexpr double unshifted_mm = 1e-9;
-  const Move &original = matched.original, &found = *matched.found.back().move;
+  const Move &original = matched.original, &found = matched.last();
   forget_lost_axes(job, m, carried);
   const bool judged = all_known(original.known_end) &&
                       (original.handling == Handling::own || original.handling == Handling::group);
@@ -100,11 +93,9 @@ std::optional<Failure> axis_failure(const Job& job, std::size_t m, const Matched
     const auto k = static_cast<Eigen::Index>(axis);
     const double shift = found.end_mm[k] - original.end_mm[k], before = carried.axes_mm[axis].value_or(0);
     if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job.options.tolerance / mm)
-      return Failure{
-          ErrorKind::not_compensated, original.line,
+      return matched.failure(
           fmt::format("{} is the same as in the original, but the moves before it are shifted by {:.4f} mm",
-                      "XYZ"[axis], before),
-          found.line};
+                      "XYZ"[axis], before));
     carried.axes_mm[axis] = shift;
   }
   return std::nullopt;
@@ -112,8 +103,7 @@ std::optional<Failure> axis_failure(const Job& job, std::size_t m, const Matched
 
 // Contours are shifted and turned in the plane: each way inside keeps its length there.
 std::optional<Failure> contour_failure(const Job& job, std::size_t m, const MatchedMoves& matched) {
-  const Move &original = matched.original, &first = *matched.found.front().move,
-             &found = *matched.found.back().move;
+  const Move &original = matched.original, &first = matched.first(), &found = matched.last();
   const bool inside = m > 0 && original.group != 0 && job.program.moves[m - 1].group == original.group;
   if (!inside || !all_known(original.known_start) || !all_known(original.known_end) ||
       !all_known(first.known_start))
@@ -122,12 +112,10 @@ std::optional<Failure> contour_failure(const Job& job, std::size_t m, const Matc
   const double off = (found.end_mm - first.start_mm).head<2>().norm() -
                      (original.end_mm - original.start_mm).head<2>().norm();
   if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;
-  return Failure{
-      ErrorKind::not_compensated, original.line,
+  return matched.failure(
       fmt::format("this move of a contour is {:.4f} mm {} in X and Y than that of the original; contours are "
                   "shifted and turned as a whole",
-                  std::abs(off), off > 0 ? "longer" : "shorter"),
-      found.line};
+                  std::abs(off), off > 0 ? "longer" : "shorter"));
 }
 
 // What the control takes off a line for its corners is one piece, at one height.
@@ -140,31 +128,27 @@ std::optional<Failure> corner_failure(const MatchedMoves& matched) {
     const bool whole = way.norm() > taken_mm || taken_mm >= length_mm;
     if (taken_mm == 0 || !all_known(found.known_start) || (way.z() == 0 && whole)) return std::nullopt;
     const std::string size = std::isfinite(taken_mm) ? fmt::format("{:.4f} mm", taken_mm) : "a part";
-    return Failure{
-        ErrorKind::not_compensated, original.line,
+    return matched.failure_at(
+        found.line,
         fmt::format(
             "the corner takes {} of this block, which is {:.4f} mm long and changes its height by {:.4f} "
             "mm; corners lie in one plane",
-            size, way.norm(), way.z()),
-        found.line};
+            size, way.norm(), way.z()));
   };
-  if (auto failure = check(*matched.found.front().move, original.corners->begin_mm)) return failure;
-  return check(*matched.found.back().move, original.corners->end_mm);
+  if (auto failure = check(matched.first(), original.corners->begin_mm)) return failure;
+  return check(matched.last(), original.corners->end_mm);
 }
 
 // External axes of a robot keep their values.
 std::optional<Failure> external_failure(const Job& job, const MatchedMoves& matched) {
   const CorrectedMove& last = matched.found.back();
-  const auto fail = [&](std::string what) {
-    return Failure{ErrorKind::not_compensated, matched.original.line, std::move(what), last.move->line};
-  };
   const auto& moves = last.program->external_axes_move;
-  if (moves && !job.program.external_axes_move) return fail(moves->what);
+  if (moves && !job.program.external_axes_move) return matched.failure(moves->what);
   for (std::size_t i = 0; i < job.program.external_axes.size(); ++i) {
     const auto &wanted = job.program.external_axes[i], &found = last.program->external_axes[i];
     if (wanted && found && wanted->value != found->value)
-      return fail(fmt::format("external axis E{} is at {}, in the original at {}", i + 1, found->value,
-                              wanted->value));
+      return matched.failure(fmt::format("external axis E{} is at {}, in the original at {}", i + 1,
+                                         found->value, wanted->value));
   }
   return std::nullopt;
 }
@@ -180,12 +164,10 @@ std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched
   const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm &&
                     off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
   if (same) return external_failure(job, matched);
-  return Failure{
-      ErrorKind::not_compensated, matched.original.line,
+  return matched.failure(
       fmt::format("the coordinates of this block are not those of the original: another offset, or {:.4f} mm "
                   "off",
-                  off),
-      last.move->line};
+                  off));
 }
 
 std::optional<Failure> shift_failure(const Job& job, std::size_t m, const MatchedMoves& matched,

@@ -45,17 +45,13 @@ std::string too_long(double length_mm, double most_mm) {
 
 std::optional<Failure> zone_failure(const Job& job, const MatchedMoves& matched, ZoneBefore& before) {
   const Move& original = matched.original;
-  const auto fail = [&](int line, std::string what) {
-    return Failure{ErrorKind::not_compensated, original.line, std::move(what), line};
-  };
   const bool is_split = matched.found.size() > 1;
   if (before.smaller && !is_split) return before.smaller;
-  if (const Move& first = *matched.found.front().move;
-      is_split && before.length_mm > 0 && all_known(first.known_start)) {
+  if (const Move& first = matched.first(); is_split && before.length_mm > 0 && all_known(first.known_start)) {
     const double most_mm = (first.end_mm - before.end_mm).norm() / 2;
     const double least_mm = original.zone ? original.zone->least_mm : 0;
     if (is_too_long(before.length_mm, most_mm, least_mm))
-      return fail(before.line, too_long(before.length_mm, most_mm));
+      return matched.failure_at(before.line, too_long(before.length_mm, most_mm));
   }
   for (std::size_t i = 0; i < matched.found.size(); ++i) {
     const CorrectedMove& found = matched.found[i];
@@ -66,14 +62,14 @@ std::optional<Failure> zone_failure(const Job& job, const MatchedMoves& matched,
     const std::string_view words = words_of(*found.program, zone),
                            wanted_words = words_of(job.program, wanted);
     if (words != wanted_words) {
-      Failure failure =
-          fail(move.line, fmt::format("the zone is {} here, {} in the original", words, wanted_words));
+      Failure failure = matched.failure_at(
+          move.line, fmt::format("the zone is {} here, {} in the original", words, wanted_words));
       if (zone.length_mm >= wanted.length_mm) return failure;
       if (!is_split && !wanted.must_not_overlap) before.smaller = std::move(failure);
     }
     const double most_mm = most_length(matched, i);
     if (is_too_long(zone.length_mm, most_mm, zone.least_mm))
-      return fail(move.line, too_long(zone.length_mm, most_mm));
+      return matched.failure_at(move.line, too_long(zone.length_mm, most_mm));
     before.length_mm = zone.length_mm;
   }
   return std::nullopt;

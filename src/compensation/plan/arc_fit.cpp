@@ -53,13 +53,8 @@ std::array<Eigen::Index, 2> plane_of(const Move& move) {
   return {(move.arc->normal + 1) % 3, (move.arc->normal + 2) % 3};
 }
 
-double radius(const Arc& arc, const Vector3& p) {
-  const Vector3 arm = p - arc.centre;
-  return (arm - arm.dot(arc.normal) * arc.normal).norm();
-}
-
 double mismatch(const Curve& curve) {
-  return std::abs(radius(*curve.arc, curve.end) - radius(*curve.arc, curve.start));
+  return std::abs(radius_at(*curve.arc, curve.end) - radius_at(*curve.arc, curve.start));
 }
 
 double digit_mm(const ArcTask& task) {
@@ -73,7 +68,7 @@ double digit_mm(const ArcTask& task) {
 // GRBL's rule; LinuxCNC's is wider.
 bool radii_are_accepted(const Curve& curve) {
   const double miss = mismatch(curve);
-  return miss <= 0.005 || (miss <= 0.5 && miss <= 0.001 * radius(*curve.arc, curve.start));
+  return miss <= 0.005 || (miss <= 0.5 && miss <= 0.001 * radius_at(*curve.arc, curve.start));
 }
 
 bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
@@ -82,12 +77,6 @@ bool is_sound(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
   return std::abs(read.arc->sweep - sweep) < most_sweep_change &&
          mismatch(read) <= mismatch(task.source) + digit_mm(task) + same_mm &&
          (radii_are_accepted(read) || !radii_are_accepted(task.source));
-}
-
-// The way of a piece about the centre without the full turns that the last one makes.
-double one_turn_of(const ArcTask& task, double u0, double u1) {
-  const int turns = u1 == 1 && !task.move.arc->flat ? task.move.arc->turns : 0;
-  return (u1 - u0) * task.source.arc->sweep - 2 * std::numbers::pi * turns;
 }
 
 double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
@@ -100,8 +89,11 @@ double miss_of(const Curve& curve, const std::vector<Sample>& wanted) {
 class PieceFit {
  public:
   PieceFit(const ArcTask& task, const ArcPiece& piece)
-      : task_(task), piece_(piece), plane_(plane_of(task.move)), end_(task.commanded(piece.u1)) {
-    for (Eigen::Index axis = 0; axis < 3; ++axis) start_[axis] = *piece.from[static_cast<std::size_t>(axis)];
+      : task_(task),
+        piece_(piece),
+        plane_(plane_of(task.move)),
+        start_(*piece.from.place_mm()),
+        end_(task.commanded(piece.u1)) {
     const int normal = task.move.arc->normal;
     if (task.move.arc->flat) end_[normal] = start_[normal];
     kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
@@ -168,8 +160,9 @@ class PieceFit {
     const double size = chord.norm();
     if (size < fit_step_mm) return std::nullopt;
     const double difference =
-        (piece_.u1 - piece_.u0) * (radius(arc, task_.source.end) - radius(arc, task_.source.start));
-    Vector3 foot = start_ + chord / 2 - difference * radius(arc, task_.source.start) / size * (chord / size);
+        (piece_.u1 - piece_.u0) * (radius_at(arc, task_.source.end) - radius_at(arc, task_.source.start));
+    Vector3 foot =
+        start_ + chord / 2 - difference * radius_at(arc, task_.source.start) / size * (chord / size);
     foot += (kept_ - foot).dot(arc.normal) * arc.normal;
     return CentreLine{foot, arc.normal.cross(chord / size)};
   }
@@ -204,7 +197,7 @@ class PieceFit {
   const ArcPiece& piece_;
   std::array<Eigen::Index, 2> plane_;
   std::vector<Sample> samples_;
-  Vector3 start_ = Vector3::Zero(), end_;
+  Vector3 start_, end_;
   Vector3 kept_ = Vector3::Zero();  // the original centre, seen from the start
 };
 
@@ -244,32 +237,12 @@ bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fi
     if (std::abs(fit.read.end[k] - stays) > same_mm) return false;
   }
   if (move.arc->radius_word)
-    return std::abs(radius(*fit.read.arc, fit.read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
+    return std::abs(radius_at(*fit.read.arc, fit.read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
   const Vector3 before = move.arc->centre_mm - (move.arc->absolute_centre ? Vector3::Zero() : move.start_mm),
                 now = fit.read.arc->centre - (move.arc->absolute_centre ? Vector3::Zero() : fit.read.start);
   for (const Eigen::Index axis : plane_of(move))
     if (std::abs(now[axis] - before[axis]) > same_mm) return false;
   return true;
-}
-
-double sweep_beside_turns(const Move& move, const Curve& source) {
-  return source.arc->sweep - 2 * std::numbers::pi * move.arc->turns;
-}
-
-bool can_be_one(const ArcTask& task, double u0, double u1) {
-  constexpr double turn = 2 * std::numbers::pi, rounding = 1e-9;
-  const double sweep = one_turn_of(task, u0, u1);
-  return sweep > 0 && sweep < turn + rounding;
-}
-
-bool must_halve(const ArcTask& task, double u0, double u1) {
-  constexpr double degree = std::numbers::pi / 180;
-  const Arc& arc = *task.source.arc;
-  const double sweep = one_turn_of(task, u0, u1), size = radius(arc, task.source.start);
-  Vector3 chord = point_at(task.source, u1) - point_at(task.source, u0);
-  chord -= chord.dot(arc.normal) * arc.normal;
-  if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;
-  return task.move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
 }
 
 }  // namespace counterflex

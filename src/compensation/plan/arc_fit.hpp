@@ -1,5 +1,6 @@
 #pragma once
-/// Fits the words of an arc to a corrected one, judged on what a control reads.
+/// Fits the words of an arc to a corrected one, judged on what a control reads, and divides it into pieces
+/// where one arc does not fit.
 #include <functional>
 
 #include "compensation/plan/curve.hpp"
@@ -63,17 +64,17 @@ FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);
 /// Whether nothing in the block's words changes when it is written as `fit`.
 bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);
 
-/// The way of an arc about its centre (rad) from start to end, without the full turns that its block asks
-/// for: the last piece makes those.
-double sweep_beside_turns(const Move& move, const Curve& source);
+/// Pieces of an arc, one after the other.
+struct ArcPieces {
+  std::vector<Via> vias;     ///< chords have no centre
+  TextPosition held;         ///< where the text holds the tool behind them
+  bool lack_digits = false;  ///< a chord is needed, and rounding leaves no room for it
+};
 
-/// Whether the words of an arc can express the piece between two fractions at all: no piece but the last
-/// makes the full turns of its block, and that one has to.
-bool can_be_one(const ArcTask& task, double u0, double u1);
-
-/// Whether a piece that is rewritten must not be one arc: a small shift of its end could turn a full
-/// circle into nothing, or an R near half a turn into none at all. Of 36 runs, 300 and 350 degrees for a full
-/// circle: 2 texts and 1, 14 lines more and 2 less; other shares of the chord and other angles for R: none.
-bool must_halve(const ArcTask& task, double u0, double u1);
+/// What an arc is divided into between fractions `u0` and `u1` without a step of the correction: one arc if
+/// that is good enough, else several, divided at corners first, then in halves, and what is half a turn at
+/// most into eight, and more where that saves chords; chords of the commanded curve only where none of them
+/// fits. `from`: where the text holds the tool.
+ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const TextPosition& from);
 
 }  // namespace counterflex

@@ -1,9 +1,10 @@
-#include "compensation/plan/arc_pieces.hpp"
-
+// Divides an arc into pieces that a control can read.
 #include <algorithm>
 #include <cmath>
 #include <numbers>
 
+#include "compensation/plan/arc_fit.hpp"
+#include "compensation/plan/knots.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -12,6 +13,33 @@ namespace counterflex {
 namespace {
 
 constexpr int most_halvings = 2 * first_halvings;
+
+// The way of a piece about the centre (rad) without the full turns that the last one makes.
+double one_turn_of(const ArcTask& task, double u0, double u1) {
+  const int turns = u1 == 1 && !task.move.arc->flat ? task.move.arc->turns : 0;
+  return (u1 - u0) * task.source.arc->sweep - 2 * std::numbers::pi * turns;
+}
+
+// Whether the words of an arc can express the piece between two fractions at all: no piece but the last
+// makes the full turns of its block, and that one has to.
+bool can_be_one(const ArcTask& task, double u0, double u1) {
+  constexpr double turn = 2 * std::numbers::pi, rounding = 1e-9;
+  const double sweep = one_turn_of(task, u0, u1);
+  return sweep > 0 && sweep < turn + rounding;
+}
+
+// Whether a piece that is rewritten must not be one arc: a small shift of its end could turn a full
+// circle into nothing, or an R near half a turn into none at all. Of 36 runs, 300 and 350 degrees for a full
+// circle: 2 texts and 1, 14 lines more and 2 less; other shares of the chord and other angles for R: none.
+bool must_halve(const ArcTask& task, double u0, double u1) {
+  constexpr double degree = std::numbers::pi / 180;
+  const Arc& arc = *task.source.arc;
+  const double sweep = one_turn_of(task, u0, u1), size = radius_at(arc, task.source.start);
+  Vector3 chord = point_at(task.source, u1) - point_at(task.source, u0);
+  chord -= chord.dot(arc.normal) * arc.normal;
+  if (sweep > 330 * degree || (sweep > 180 * degree && chord.norm() < 0.1 * size)) return true;
+  return task.move.arc->radius_word && sweep > 150 * degree && sweep < 210 * degree;
+}
 
 // Divides from the start on; what follows a piece begins where the text holds the tool behind it.
 class ArcDivider {
@@ -82,7 +110,7 @@ class ArcDivider {
       low = std::min(low, height);
       high = std::max(high, height);
     }
-    Vector3 p{*held_[0], *held_[1], *held_[2]};
+    Vector3 p = *held_.place_mm();
     p[normal] = (low + high) / 2;
     return p;
   }
@@ -111,8 +139,8 @@ class ArcDivider {
   // count. Full turns are left to the last piece. What cannot be one arc is two, and of the same length.
   Division division_of(double u0, double u1) const {
     const double sweep = task_.source.arc->sweep;
-    if (task_.move.arc->turns > 0 && u0 == 0 && u1 == 1)
-      return {sweep_beside_turns(task_.move, task_.source) / 2 / sweep, false};
+    if (const int turns = task_.move.arc->turns; turns > 0 && u0 == 0 && u1 == 1)
+      return {(sweep - 2 * std::numbers::pi * turns) / 2 / sweep, false};
     const double middle = (u0 + u1) / 2;
     const bool half_turn_at_most = (u1 - u0) * sweep < std::numbers::pi * (1 + 1e-9);
     if (!can_be_one(task_, u0, u1) || must_halve(task_, u0, u1)) return {middle, half_turn_at_most};
@@ -138,7 +166,7 @@ class ArcDivider {
 
   void leave_to_chords(double u0, double u1) {
     if (!chords_) chords_ = Chords{u0, held_};
-    hold(end_of({task_.commanded(u1)}, u1));
+    held_.set(end_of({task_.commanded(u1)}, u1));
   }
 
   void put_chords(double u1) {
@@ -175,14 +203,10 @@ class ArcDivider {
     return as_written(task_.move, held_, via, u == 1, task_.options).end;
   }
 
-  void put(const Via& via, double u, const Vector3& end) {
-    result_.vias.push_back(via);
-    result_.ends.push_back(u);
-    hold(end);
-  }
-
-  void hold(const Vector3& end) {
-    for (std::size_t axis = 0; axis < 3; ++axis) held_[axis] = end[static_cast<Eigen::Index>(axis)];
+  void put(Via via, double u, const Vector3& end) {
+    if (task_.move.orientation) via.orientation = task_.turned(u);
+    result_.vias.push_back(std::move(via));
+    held_.set(end);
   }
 
   const ArcTask& task_;

@@ -7,16 +7,6 @@
 
 namespace counterflex {
 
-Answer Corrections::ask(std::size_t segment, double u, Side side) {
-  const Segment& on = job_.path.segments[segment];
-  const bool joins = u == 0 && !requests_.empty() && segments_.back() + 1 == segment &&
-                     job_.forces.follows(segment) && requests_.back().p_MT == on.wanted.start &&
-                     requests_.back().R_MT == orientation_at(on, 0) &&
-                     requests_.back().model == &model_of(job_, on) &&
-                     requests_.back().directions == directions_at(job_, on.move, 0, side);
-  return joins ? requests_.size() - 1 : ask(segment, u, force_at(segment, u, side), side);
-}
-
 Answer Corrections::ask(std::size_t segment, double u, const Vector6& F, Side side) {
   const Segment& on = job_.path.segments[segment];
   const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F, orientation_at(on, u),
@@ -66,7 +56,7 @@ bool is_line(const Corrections& corrections, const Interval& i, double accuracy)
 // The parabola through three of the nodes has the accuracy at the other two: all five together are better.
 bool is_predicted(const Corrections& corrections, const Interval& i, double accuracy) {
   if (i.u[4] - i.u[0] < smallest_interval) return true;
-  std::vector<CurveNode> parabola;
+  CurveInterval parabola;
   for (const std::size_t k : {0u, 2u, 4u}) parabola.push_back(corrections.node(i.u[k], i.at[k]));
   const auto miss = [&](std::size_t k) {
     return (polynomial_at(parabola, i.u[k]) - corrections.correction(i.at[k])).norm();
@@ -130,7 +120,7 @@ std::vector<Interval> refine(Corrections& corrections, std::vector<Interval> ope
 CurveInterval nodes_of(const Corrections& corrections, const Interval& interval) {
   CurveInterval result;
   for (std::size_t k = 0; k < 5; ++k)
-    if (interval.at[k] != no_answer) result.nodes.push_back(corrections.node(interval.u[k], interval.at[k]));
+    if (interval.at[k] != no_answer) result.push_back(corrections.node(interval.u[k], interval.at[k]));
   return result;
 }
 

@@ -22,7 +22,9 @@ class Corrections {
 
   /// Requests the correction at a fraction of a segment. A request is shared with the last one if that has
   /// the same place, force and directions.
-  Answer ask(std::size_t segment, double u, Side side);
+  Answer ask(std::size_t segment, double u, Side side) {
+    return ask(segment, u, force_at(segment, u, side), side);
+  }
   Answer ask(std::size_t segment, double u, const Vector6& F, Side side);
 
   /// The force at a fraction of a segment.

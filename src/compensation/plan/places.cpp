@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/solve/commands.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -11,6 +12,55 @@ namespace {
 
 constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
 constexpr double same_fraction = 1e-9;
+
+bool is_known_hole(const Move& move) {
+  const auto& fixed = move.fixed;
+  return move.cycle && move.handling == Handling::own && !fixed[0] && !fixed[1] && !fixed[2];
+}
+
+bool is_first_known(const Move& move) {
+  return all_known(move.known_end) && !all_known(move.known_start) && !move.cycle;
+}
+
+BoxedOptional<Turn> turn_between(const Segment& segment, double u0, double u1) {
+  if (!segment.turn) return {};
+  return stretch(*segment.turn, u0, u1);
+}
+
+// The pieces of a segment end at its places, or at its end alone.
+std::vector<Piece> pieces_of(const Job& job, bool at_places) {
+  std::vector<Piece> pieces;
+  std::vector<double> ends{1};
+  ForceCursor cursor;
+  std::size_t next_move = 0;
+  const auto add_ends_before = [&](std::size_t end) {
+    for (; next_move < end; ++next_move) {
+      const Move& move = job.program.moves[next_move];
+      if (is_known_hole(move)) pieces.push_back(piece_of_hole(job, move, move));
+      if (is_first_known(move)) pieces.push_back(piece_of_position(job, move, move));
+    }
+  };
+  for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
+    const Segment& segment = job.path.segments[s];
+    add_ends_before(segment.move);
+    const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
+    if (at_places) places_along(job, s, cursor, ends);
+    double u0 = 0;
+    for (const double u : ends) {
+      pieces.push_back({.segment = s,
+                        .line = segment.line,
+                        .u0 = u0,
+                        .u1 = u,
+                        .frame = segment.frame,
+                        .commanded = back * stretch(segment.wanted, u0, u),
+                        .turn = turn_between(segment, u0, u),
+                        .end_only = !segment.cutting});
+      u0 = u;
+    }
+  }
+  add_ends_before(job.program.moves.size());
+  return pieces;
+}
 
 }  // namespace
 
@@ -31,17 +81,21 @@ int steps_along(const Job& job, const Segment& segment) {
   return std::max(static_cast<int>(std::max(by_length, by_angle)), steps_of_tables(job, segment));
 }
 
+void fractions_inside(const Job& job, std::size_t index, int steps, ForceCursor& cursor,
+                      std::vector<double>& fractions) {
+  job.forces.breaks(index, cursor, fractions);
+  if (job.directions != nullptr)
+    for (const double u : job.directions->inside(job.path.segments[index].move)) fractions.push_back(u);
+  for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
+  std::sort(fractions.begin(), fractions.end());
+  fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
+}
+
 void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& fractions) {
   const Segment& segment = job.path.segments[index];
   fractions.clear();
   if (segment.cutting) {
-    std::vector<double> reversals;
-    if (job.directions != nullptr) job.directions->inside(segment.move, reversals);
-    job.forces.breaks(index, cursor, fractions);
-    fractions.insert(fractions.end(), reversals.begin(), reversals.end());
-    const int steps = steps_along(job, segment);
-    for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
-    std::sort(fractions.begin(), fractions.end());
+    fractions_inside(job, index, steps_along(job, segment), cursor, fractions);
     const auto same = [](double a, double b) { return b - a < same_fraction; };
     fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
   }
@@ -60,6 +114,14 @@ std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std:
   for (int k = 1; k < eighths && !job.forces.is_linear_between_breaks(); ++k)
     add(stretch.u0 + static_cast<double>(k) / eighths * (stretch.u1 - stretch.u0));
   return bends;
+}
+
+std::vector<Piece> original_pieces(const Job& job) {
+  return pieces_of(job, true);
+}
+
+std::vector<Piece> original_moves(const Job& job) {
+  return pieces_of(job, false);
 }
 
 }  // namespace counterflex

@@ -22,6 +22,11 @@ int steps_of_tables(const Job& job, const Segment& segment);
 /// Equal steps along a feed move; a rapid is one.
 int steps_along(const Job& job, const Segment& segment);
 
+/// Sets `fractions` to those inside a segment, increasing: corners of the force, where joints reverse, and
+/// between `steps` equal parts.
+void fractions_inside(const Job& job, std::size_t segment, int steps, ForceCursor& cursor,
+                      std::vector<double>& fractions);
+
 /// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
 /// feed move has places at the corners of the force, where joints reverse, and in equal steps of at most 5 mm
 /// (a 64th of a longer move), of at most one position of the tables of errors of motion and, around an arc,

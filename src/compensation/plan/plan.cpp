@@ -16,8 +16,6 @@ namespace {
 
 constexpr double sampled_angle = std::numbers::pi / 2;  // of a wave, two samples on each side of an extreme
 
-enum class Kind { held, group, end, cut, as_programmed };
-
 Fade fade_of(const Job& job, const Segment& segment) {
   Fade fade{starts_as_programmed(job, segment.move), ends_as_programmed(job, segment.move)};
   fade.programmed.head<3>() = -job.path.frames[segment.frame].datum_shift;
@@ -26,11 +24,11 @@ Fade fade_of(const Job& job, const Segment& segment) {
 
 struct PlanTask {
   std::size_t segment = 0;
-  Kind kind = Kind::held;
   Fade fade{};
   Answer start = no_answer, end = no_answer;
-  std::vector<Answer> group{};
-  std::vector<double> limits{};  // of a cut that is sampled: fractions between which it is
+  std::vector<Answer> group{};   // of a move of a contour group: it has no other answers
+  bool is_sampled = false;       // a cut that is not planned by its ends alone
+  std::vector<double> limits{};  // of a cut: fractions between which it is sampled
 };
 
 // What is requested along a slice of the path.
@@ -43,31 +41,18 @@ struct Requests {
 // Where sampling begins again: at corners of the force, where a joint reverses, often enough around an arc
 // and across the positions of tables.
 void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& limits) {
-  job.forces.breaks(index, cursor, limits);
   const Segment& segment = job.path.segments[index];
   const auto& arc = segment.wanted.arc;
   const int waves = arc ? static_cast<int>(std::ceil(arc->sweep / sampled_angle)) : 1;
-  const int parts = std::max(waves, steps_of_tables(job, segment));
-  std::vector<double> reversals;
-  if (job.directions != nullptr) job.directions->inside(segment.move, reversals);
-  if (parts == 1 && reversals.empty()) return;
-  limits.insert(limits.end(), reversals.begin(), reversals.end());
-  for (int k = 1; k < parts; ++k) limits.push_back(static_cast<double>(k) / parts);
-  std::sort(limits.begin(), limits.end());
-  limits.erase(std::unique(limits.begin(), limits.end()), limits.end());
-}
-
-bool reverses_inside(const Job& job, const Segment& segment) {
-  std::vector<double> fractions;
-  if (job.directions != nullptr) job.directions->inside(segment.move, fractions);
-  return !fractions.empty();
+  fractions_inside(job, index, std::max(waves, steps_of_tables(job, segment)), cursor, limits);
 }
 
 // Whether the bound of its cell lets a line go straight between its ends. A step of the force divides it.
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
   const Segment& segment = job.path.segments[task.segment];
   if (segment.wanted.arc || segment.turn || (job.options.blend == 0 && !task.limits.empty())) return false;
-  if (reverses_inside(job, segment) || task.fade.acts()) return false;
+  const bool reverses = job.directions != nullptr && !job.directions->inside(segment.move).empty();
+  if (reverses || task.fade.acts()) return false;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
   const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
   const LineBend bend = corrections.solver().bend_along(
@@ -100,46 +85,39 @@ void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector
   task.end = requests.intervals.back().at[4];
 }
 
+void plan_as_programmed(const Job& job, const Segment& segment, const Correction& c,
+                        PlannedSegment& planned) {
+  planned.starts_anywhere = !segment.cutting && job.options.blend > 0;
+  planned.start = command_at(job, segment, 0, c);
+  if (segment.wanted.arc) planned.arc.emplace_back().add({{0, c}, {1, c}});
+  planned.knots = {{command_at(job, segment, 1, c), 1}};
+}
+
 // Cycles are solved at their bottom when they are written; what is held needs no solution.
-void ask_segment(const Job& job, Requests& requests, std::size_t index) {
+void ask_segment(const Job& job, Requests& requests, std::size_t index, PlannedSegment& planned) {
   Corrections& corrections = requests.corrections;
   const Segment& segment = job.path.segments[index];
   const Move& move = job.program.moves[segment.move];
   PlanTask task{.segment = index};
   if (move.handling == Handling::group) {
-    task.kind = Kind::group;
     ask_group(requests, task, segment.cutting);
-  } else if (move.handling != Handling::held && !move.cycle) {
+  } else if (move.handling == Handling::held || move.cycle) {
+    return;
+  } else {
     task.fade = fade_of(job, segment);
-    if (task.fade.from && task.fade.to) {
-      task.kind = Kind::as_programmed;
-      requests.tasks.push_back(std::move(task));
-      return;
-    }
+    if (task.fade.from && task.fade.to)
+      return plan_as_programmed(job, segment, task.fade.programmed, planned);
     // With a blend a rapid starts where the cut ended.
     if (segment.cutting || job.options.blend == 0) task.start = corrections.ask(index, 0, Side::after);
     if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
     const Vector6 F1 = corrections.force_at(index, 1, Side::before);
-    task.kind = !segment.cutting || bends_little(job, corrections, task, F1) ? Kind::end : Kind::cut;
-    if (task.kind == Kind::cut)
+    task.is_sampled = segment.cutting && !bends_little(job, corrections, task, F1);
+    if (task.is_sampled)
       ask_inside(job, requests, task, F1);
     else
       task.end = corrections.ask(index, 1, F1, Side::before);
   }
   requests.tasks.push_back(std::move(task));
-}
-
-void finish_as_programmed(const Job& job, const PlanTask& task, PlannedSegment& planned) {
-  const Segment& segment = job.path.segments[task.segment];
-  const Correction& c = task.fade.programmed;
-  planned.starts_anywhere = !segment.cutting && job.options.blend > 0;
-  planned.start = command_at(job, segment, 0, c);
-  if (!segment.wanted.arc) {
-    planned.end = command_at(job, segment, 1, c);
-    return;
-  }
-  planned.arc.emplace_back().add({{{0, c}, {1, c}}});
-  planned.knots = {{command_at(job, segment, 1, c), 1}};
 }
 
 // Continuous stretches between steps of the force, each with its own knots. `interval`: the first one of the
@@ -179,22 +157,18 @@ std::optional<Failure> finish_cut(const Job& job, Corrections& corrections, cons
 std::optional<Failure> finish(const Job& job, Corrections& corrections, const PlanTask& task,
                               const Interval*& interval, PlannedSegment& planned) {
   const Segment& segment = job.path.segments[task.segment];
-  for (std::size_t k = 0; k < task.group.size(); ++k) {
-    const double u =
-        task.group.size() == 1 ? 1 : static_cast<double>(k) / static_cast<double>(task.group.size() - 1);
+  const std::size_t count = task.group.size();
+  for (std::size_t k = 0; k < count; ++k) {
+    const double u = count == 1 ? 1 : static_cast<double>(k) / static_cast<double>(count - 1);
     planned.group.push_back(corrections.node(u, task.group[k]));
   }
-  if (task.kind == Kind::held || task.kind == Kind::group) return std::nullopt;
-  if (task.kind == Kind::as_programmed) {
-    finish_as_programmed(job, task, planned);
-    return std::nullopt;
-  }
+  if (count > 0) return std::nullopt;
   planned.starts_anywhere = task.start == no_answer;
   planned.start.target = segment.wanted.start;
   if (task.start != no_answer)
     planned.start = command_at(job, segment, 0, task.fade(0, corrections.correction(task.start)));
-  if (task.kind == Kind::cut) return finish_cut(job, corrections, task, interval, planned);
-  planned.end = command_at(job, segment, 1, task.fade(1, corrections.correction(task.end)));
+  if (task.is_sampled) return finish_cut(job, corrections, task, interval, planned);
+  planned.knots = {{command_at(job, segment, 1, task.fade(1, corrections.correction(task.end))), 1}};
   return std::nullopt;
 }
 
@@ -202,7 +176,7 @@ std::optional<Failure> finish(const Job& job, Corrections& corrections, const Pl
 std::optional<Failure> plan_slice(const Job& job, std::size_t begin, std::size_t end, Plan& plan) {
   PlaceSolver solver(job);
   Requests requests{Corrections(job, solver), {}, {}};
-  for (std::size_t i = begin; i < end; ++i) ask_segment(job, requests, i);
+  for (std::size_t i = begin; i < end; ++i) ask_segment(job, requests, i, plan.segments[i]);
   Corrections& corrections = requests.corrections;
   const std::vector<Interval> intervals =
       refine(corrections, std::move(requests.intervals), curve_share * job.options.tolerance);

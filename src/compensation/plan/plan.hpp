@@ -17,10 +17,9 @@ struct Knot : TargetCommand {
 };
 
 struct PlannedSegment {
-  TargetCommand start{};               ///< where the segment should begin
-  bool starts_anywhere = false;        ///< a rapid begins where the move before it ended
-  std::optional<TargetCommand> end{};  ///< of a segment that is not divided: at its end
-  /// Else the last one is its end; a step within is two knots at one fraction.
+  TargetCommand start{};         ///< where the segment should begin
+  bool starts_anywhere = false;  ///< a rapid begins where the move before it ended
+  /// The last one is its end, a step is two knots at one fraction; empty if it is not corrected by itself.
   std::vector<Knot> knots;
   /// Of an arc: its correction between steps of the force; its text is fitted when it is known where the one
   /// before it ends.
@@ -30,11 +29,6 @@ struct PlannedSegment {
   /// m: largest deviation inside, where points would have been needed but must not be inserted.
   double unsplit_miss = 0;
 };
-
-/// The command at the end of a segment that is corrected by itself.
-inline const TargetCommand& end_of(const PlannedSegment& planned) {
-  return planned.end ? *planned.end : planned.knots.back();
-}
 
 struct Plan {
   std::vector<PlannedSegment> segments;

@@ -195,14 +195,15 @@ Directions PathDirections::at(std::size_t move, double u, Side side) const {
   return behind == changes_.begin() ? first_ : std::prev(behind)->behind;
 }
 
-void PathDirections::inside(std::size_t move, std::vector<double>& fractions) const {
-  fractions.clear();
+std::vector<double> PathDirections::inside(std::size_t move) const {
+  std::vector<double> fractions;
   const auto is_before = [&](const DirectionChange& change) { return change.move < move; };
   for (auto change = std::ranges::partition_point(changes_, is_before);
        change != changes_.end() && change->move == move; ++change)
     if (change->is_reversal && change->u > 0 && change->u < 1 &&
         (fractions.empty() || fractions.back() < change->u))
       fractions.push_back(change->u);
+  return fractions;
 }
 
 PathDirections directions_along(const Job& job, DirectionsEnd& end) {

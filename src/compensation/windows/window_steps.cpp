@@ -8,24 +8,6 @@
 namespace counterflex {
 namespace {
 
-void count_moves(const Job& job, const Emission& emission, Compensation& result) {
-  OtherMoves& others = result.other_moves;
-  for (const EmittedMove& emitted : emission.moves) {
-    if (!emitted.in_part) {
-      ++result.corrected_moves;
-      continue;
-    }
-    const Handling handling = job.program.moves[emitted.edit.move].handling;
-    if (handling == Handling::group)
-      ++others.grouped;
-    else if (handling == Handling::own && emitted.kind != EmittedMove::Kind::shifted)
-      ++others.in_part;
-    else
-      ++others.held;
-  }
-  others.left += job.program.moves.size() - emission.moves.size();
-}
-
 // Where the last move ends; nothing where it comes from an unknown position.
 std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
   if (corrected.moves.empty()) return std::nullopt;
@@ -54,14 +36,12 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   result.failure = turns_failure(job, work.actuators, carry.path.actuators);
   if (work.failed()) return;
   Emission emission = emit(job, work.plan, carry.emitter);
-  work.ways = planned_ways(job, work.plan);
-  work.plan = {};
   result.left_alone = std::move(emission.left_alone);
   result.failure = emission.failure;
   if (work.failed()) return;
-  count_moves(job, emission, result);
-  const std::vector<MoveEdit> edits = take_edits(emission);
-  result.counts = carry.rewriter.write(job.program, edits);
+  result.corrected_moves = emission.corrected_moves;
+  result.other_moves = emission.other_moves;
+  result.counts = carry.rewriter.write(job.program, emission.edits);
   result.text = std::move(result.counts.text);
   carry.corrected.read(result.text);
   carry.corrected.take_window(result.corrected);
@@ -71,6 +51,7 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
 }
 
 void take(const Job& job, Matching matching, WindowWork& work) {
+  work.plan = {};  // its memory is not needed where the pieces are solved
   work.pieces = std::move(matching.pieces);
   work.result.failure = std::move(matching.failure);
   if (!work.failed()) work.result.failure = stated_turns_failure(job, work.pieces);
@@ -79,7 +60,7 @@ void take(const Job& job, Matching matching, WindowWork& work) {
 void match_written(const Job& job, WindowWork& work) {
   CorrectedMoves found(work.result.corrected);
   OtherLines lines;
-  Matching matching = match_window(job, work.ways, lines, found);
+  Matching matching = match_window(job, work.plan, lines, found);
   if (!matching.failure) matching.failure = match_end(lines, found);
   take(job, std::move(matching), work);
 }
@@ -88,8 +69,8 @@ void match_written(const Job& job, WindowWork& work) {
 void plan_ends(const Job& job, WindowWork& work) {
   follow_window(job, work);
   if (work.failed()) return;
-  const Plan found = plan(job);
-  if (!found.failure) work.ways = planned_ways(job, found);
+  work.plan = plan(job);
+  if (work.plan.failure) work.plan.segments.assign(work.plan.segments.size(), {});
 }
 
 void carry_path(const Job& job, PathCarry& carry, WindowWork& work) {
@@ -153,7 +134,7 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
           .prepare = plan_ends,
           .write =
               [&carry](const Job& job, WindowWork& work) {
-                take(job, match_window(job, work.ways, carry.lines, carry.found), work);
+                take(job, match_window(job, work.plan, carry.lines, carry.found), work);
                 carry_path(job, carry.path, work);
               },
           .match = [](const Job&, WindowWork&) {},

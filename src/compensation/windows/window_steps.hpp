@@ -13,7 +13,6 @@ namespace counterflex {
 /// A window in progress.
 struct WindowWork {
   Plan plan{};
-  PlannedWays ways{};
   ActuatorWay actuators{};
   std::vector<Piece> pieces{};       ///< that are solved
   std::optional<Vector3> command{};  ///< where the window before ended, if that is known

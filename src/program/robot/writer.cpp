@@ -92,12 +92,6 @@ std::vector<double> spacings_of(const std::optional<Vector3>& start, std::vector
   return spacings;
 }
 
-/// The position in the text, if it is known on all axes.
-std::optional<Vector3> place_of(const TextPosition& position) {
-  if (!position[0] || !position[1] || !position[2]) return std::nullopt;
-  return Vector3(*position[0], *position[1], *position[2]);
-}
-
 /// Counts the target of `move` and the points inserted before it.
 void count_points(const Move& move, std::size_t inserted, std::size_t most, PointCount& points) {
   ++points.before;
@@ -199,7 +193,7 @@ void RobotWriter::write_move(const MoveEdit& edit, Output& o) {
   assert(!edit.jump || move.may_jump);
   position_ = known_text_position(move, position_);
   const std::vector<double> spacings =
-      spacings_of(place_of(position_), written_points(move, &edit, options_));
+      spacings_of(position_.place_mm(), written_points(move, &edit, options_));
   auto spacing = spacings.begin();
   std::string before;
   if (edit.jump) insert_point(move, *edit.jump, 1, *spacing++, before, o);

@@ -35,8 +35,7 @@ Curve logged_curve(const ForceProfile& log, const Program& window, const Segment
 int parts_of(const Curve& curve, double longest, double flat) {
   double parts = length(curve) / longest;
   if (curve.arc) {
-    const Vector3 arm = curve.start - curve.arc->centre;
-    const double radius = (arm - arm.dot(curve.arc->normal) * curve.arc->normal).norm();
+    const double radius = radius_at(*curve.arc, curve.start);
     parts = std::max(parts, curve.arc->sweep / std::sqrt(8 * flat / std::max(radius, flat)));
   }
   return 1 + static_cast<int>(std::min(parts, 1e8));
