@@ -24,12 +24,7 @@ void fill_in(const Move& move, std::size_t index, const Pose& X_MW, Segment& seg
   segment.cutting = move.motion == Motion::feed;
   segment.frame = move.frame;
   if (move.orientation) segment.turn = X_MW.R * turn_of(*move.orientation);
-  if (move.arc) {
-    segment.wanted = X_MW * scaled(curve_of(move), mm);
-    return;
-  }
-  segment.wanted.start = X_MW * Vector3(move.start_mm * mm);
-  segment.wanted.end = X_MW * Vector3(move.end_mm * mm);
+  segment.wanted = curve_in(X_MW, move);
 }
 
 /// Under G93 F defines the duration of the move.
@@ -96,6 +91,10 @@ Curve curve_of(const Move& move) {
   curve.arc = Arc{move.arc->centre_mm, normal,
                   sweep_between(move.start_mm, move.end_mm, move.arc->centre_mm, normal, move.arc->turns)};
   return curve;
+}
+
+Curve curve_in(const Pose& X_AP, const Move& move) {
+  return X_AP * scaled(curve_of(move), mm);
 }
 
 double duration_of(const Move& move) {

@@ -89,10 +89,13 @@ inline Directions directions_at(const Job& job, std::size_t move, double u, Side
 /// The machine with tool number `tool` in its spindle.
 const Model& model_with(const Model& model, const ToolModels* tools, long tool);
 
-/// The machine that makes a move of the path. Nearly always there is only one: no move is looked at then.
-inline const Model& model_of(const Job& job, const Segment& segment) {
+/// The machine that makes a move of the program. Nearly always there is only one: no move is looked at then.
+inline const Model& model_of(const Job& job, std::size_t move) {
   if (job.tools == nullptr || job.tools->empty()) return job.model;
-  return model_with(job.model, job.tools, job.program.moves[segment.move].tool);
+  return model_with(job.model, job.tools, job.program.moves[move].tool);
+}
+inline const Model& model_of(const Job& job, const Segment& segment) {
+  return model_of(job, segment.move);
 }
 
 /// Why a run was refused: the kind of error, line of the original program, what happened, and the line of the
@@ -115,25 +118,17 @@ inline constexpr std::size_t no_segment = static_cast<std::size_t>(-1);
 struct Piece {
   /// Index into Toolpath::segments; no_segment for a position reached from an unknown one.
   std::size_t segment = 0;
+  std::size_t move = 0;    ///< index into Program::moves of the original
   int line = 0;            ///< of the original program
   int corrected_line = 0;  ///< of the corrected one; 0: none
   double u0 = 0, u1 = 1;
   std::size_t frame = 0;  ///< index into Toolpath::frames
   Curve commanded;
-  BoxedOptional<Turn> turn{};         ///< commanded, where the program gives orientations
-  Vector3 wanted = Vector3::Zero();   ///< wanted position where there is no segment, M (m)
-  BoxedOptional<Matrix3> R_wanted{};  ///< wanted orientation there, where the program gives one
+  BoxedOptional<Turn> turn{};  ///< commanded, where the program gives orientations
   bool end_only = false;
   bool exempt = false;      ///< listed as not split: its inside may miss the tolerance
   bool exempt_end = false;  ///< listed as not written in all axes: its end may miss it, too
-  std::size_t move = 0;     ///< index into Program::moves of the original, where there is no segment
-  Directions directions{};  ///< at its end, where there is no segment
 };
-
-/// The move of the original program that a piece belongs to: an index into Program::moves.
-inline std::size_t move_of(const Job& job, const Piece& piece) {
-  return piece.segment == no_segment ? piece.move : job.path.segments[piece.segment].move;
-}
 
 /// Where a deviation comes from, and what it becomes without the force; as for a waypoint.
 struct Causes {

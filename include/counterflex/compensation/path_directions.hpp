@@ -30,7 +30,6 @@ class PathDirections {
   /// Fractions inside a move at which a joint reverses, increasing.
   std::vector<double> inside(std::size_t move) const;
 
-  const Directions& last() const { return changes_.empty() ? first_ : changes_.back().behind; }
   const std::vector<DirectionChange>& changes() const { return changes_; }
 
   /// The next change along the path.

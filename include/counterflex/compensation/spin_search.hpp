@@ -2,10 +2,10 @@
 /// The turn of the tool about the spindle axis. A cutter does not see it, but the posture of the machine
 /// depends on it: chosen along a program, it lowers the deviation.
 #include <cstddef>
-#include <memory>
+#include <functional>
 #include <vector>
 
-#include "counterflex/compensation/options.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
 
@@ -35,20 +35,10 @@ struct SpinChoice {
 ///   the turn that a target states. No place is closer to another configuration (`arm_margin`, for other
 ///   machines the condition of the actuators) than the closest place of the program as it is.
 /// - The force is that of the program as it is: it does not turn with the flange.
-class SpinSearch {
- public:
-  SpinSearch();
-  ~SpinSearch();
-
-  /// The next window, without turns (`RunInput::spins`). Solves it on the threads of the job. Throws
-  /// `InputError` (ErrorKind::program_text) for a program whose tool cannot be turned.
-  void add(const Job& job);
-
-  SpinChoice best() const;
-
- private:
-  struct Impl;
-  std::unique_ptr<Impl> impl_;
-};
+///
+/// `windows`: of the program without turns (`RunInput::spins`). Reads them to their end. `read` gets each
+/// window before it is solved. Throws `InputError` (ErrorKind::program_text) for a program whose tool cannot
+/// be turned, and what the reader throws.
+SpinChoice best_spins(JobWindows& windows, int threads, const std::function<void(const Job&)>& read);
 
 }  // namespace counterflex

@@ -79,7 +79,7 @@ struct RunInput {
                                                     ///< `first_directions`
   const TipUncertainties* uncertainties = nullptr;  ///< as for a job
   /// Wanted turn about the spindle axis at the end of each move of the program (rad), by its number; see
-  /// `SpinSearch`. None: as programmed.
+  /// `best_spins`. None: as programmed.
   const std::vector<double>* spins = nullptr;
   const std::vector<bool>* as_programmed = nullptr;  ///< as for a job
 };

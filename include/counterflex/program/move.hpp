@@ -162,7 +162,7 @@ struct MoveOrientation {
   OrientationNumbers start{}, end{};
   std::array<PackedAxisWord, 4> words;  ///< of the block, by number
   /// Turn about the spindle axis that is wanted beside the numbers, at the start and at the end (rad): see
-  /// `SpinSearch`. The text does not have it.
+  /// `best_spins`. The text does not have it.
   double start_spin = 0, end_spin = 0;
 };
 

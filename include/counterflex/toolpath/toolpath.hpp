@@ -79,6 +79,9 @@ void ignore_axes(Program& program, const std::array<bool, 3>& ignored);
 /// The move's way in program coordinates, mm.
 Curve curve_of(const Move& move);
 
+/// The same in frame A, in which program coordinates have the pose `X_AP`, in m.
+Curve curve_in(const Pose& X_AP, const Move& move);
+
 /// How long a feed move takes at its programmed feed (s); 0: it gives no segment, or no feed is known.
 double duration_of(const Move& move);
 

@@ -61,16 +61,10 @@ LargestDeviation solve_program(Run& run, Console& console) {
 SpinChoice search_spins(Run& run, Console& console) {
   ProgramReader reader(run.file.bytes, run.program.file, run.read);
   JobWindows windows(run.input(), reader);
-  SpinSearch search;
-  JobWindow window;
-  while (windows.next(window)) {
+  return best_spins(windows, run.options.threads, [&](const Job& window) {
     const auto& segments = window.path.segments;
     console.solving(segments.empty() ? 0 : segments.front().line, run.program.lines);
-    Job job = windows.job(window);
-    job.options.threads = run.options.threads;
-    search.add(job);
-  }
-  return search.best();
+  });
 }
 
 /// In which direction actuators with lost motion move first depends on the turns.

@@ -24,7 +24,7 @@ Failure not_found(const Move& original, std::size_t others, CorrectedMoves& foun
 void add_hole(const Job& job, const MatchedMoves& matched, std::vector<DraftPiece>& drafts) {
   const Move &original = matched.original, &found = matched.last();
   if (!original.cycle || !original.known_end[0] || !original.known_end[1]) return;
-  Piece piece = piece_of_hole(job, original, found);
+  Piece piece = piece_of_end(job, original, found);
   piece.corrected_line = found.line;
   const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
   piece.exempt_end = original.handling != Handling::own || !takes_z;
@@ -38,7 +38,7 @@ void add_position(const Job& job, const MatchedMoves& matched, bool skipped,
   const bool known = all_known(original.known_end) && !all_known(original.known_start);
   if (!known || matched.segment || original.cycle) return;
   const Move& found = matched.last();
-  Piece piece = piece_of_position(job, original, found);
+  Piece piece = piece_of_end(job, original, found);
   piece.corrected_line = found.line;
   piece.exempt_end = original.handling != Handling::own || !takes_all_words(original) ||
                      (skipped && original.motion == Motion::feed);

@@ -42,6 +42,7 @@ std::vector<DraftPiece> drafts_of(const Job& job, const MatchedMoves& matched) {
     const Curve way =
         all_known(move.known_start) ? command_of(job, move) : Curve{from, target_of(job, move), {}};
     drafts.push_back({{.segment = *matched.segment,
+                       .move = segment.move,
                        .line = segment.line,
                        .corrected_line = move.line,
                        .u1 = is_last ? 1 : not_known,

@@ -36,8 +36,7 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
   const auto add_ends_before = [&](std::size_t end) {
     for (; next_move < end; ++next_move) {
       const Move& move = job.program.moves[next_move];
-      if (is_known_hole(move)) pieces.push_back(piece_of_hole(job, move, move));
-      if (is_first_known(move)) pieces.push_back(piece_of_position(job, move, move));
+      if (is_known_hole(move) || is_first_known(move)) pieces.push_back(piece_of_end(job, move, move));
     }
   };
   for (std::size_t s = 0; s < job.path.segments.size(); ++s) {
@@ -48,6 +47,7 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
     double u0 = 0;
     for (const double u : ends) {
       pieces.push_back({.segment = s,
+                        .move = segment.move,
                         .line = segment.line,
                         .u0 = u0,
                         .u1 = u,
@@ -64,6 +64,10 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
 
 }  // namespace
 
+double angle_along(const Segment& segment) {
+  return std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
+}
+
 int steps_of_tables(const Job& job, const Segment& segment) {
   const Mechanism& mechanism = model_of(job, segment).mechanism;
   if (std::isinf(mechanism.error_spacing) && std::isinf(mechanism.error_spacing_angle)) return 1;
@@ -76,8 +80,7 @@ int steps_along(const Job& job, const Segment& segment) {
   if (!segment.cutting) return 1;
   const double by_length =
       std::clamp(std::ceil((segment.s_end - segment.s_start) / between_places), 1.0, double{most_by_length});
-  const double angle = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
-  const double by_angle = std::ceil(angle / angle_between_places);
+  const double by_angle = std::ceil(angle_along(segment) / angle_between_places);
   return std::max(static_cast<int>(std::max(by_length, by_angle)), steps_of_tables(job, segment));
 }
 

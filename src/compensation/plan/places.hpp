@@ -14,6 +14,9 @@ inline constexpr int eighths = 8;
 /// line of a metre.
 inline constexpr double most_steps = 4096;
 
+/// How far a segment goes around an arc or turns the tool, the larger angle (rad).
+double angle_along(const Segment& segment);
+
 /// Steps along a segment in which no axis passes more than about one position of a table of errors of motion:
 /// as if axes went as far as the tip goes, and turned as if it were at the machine's length from them. 1
 /// without tables.

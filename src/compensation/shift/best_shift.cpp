@@ -76,11 +76,6 @@ Pose offset_shift(const Variables& v, const Eigen::VectorXd& x, std::size_t offs
   return shift;
 }
 
-double value_of(const std::map<long, int>& variables, const Eigen::VectorXd& x, long tool) {
-  const auto found = variables.find(tool);
-  return found == variables.end() ? 0 : x[found->second];
-}
-
 BestShift values_of(const Variables& v, const Eigen::VectorXd& x) {
   BestShift best;
   for (std::size_t offset = 0; offset < v.freedom.offsets; ++offset)
@@ -149,24 +144,21 @@ class Search {
 
  private:
   // Deviations with the shift `x`; the line of the first place that cannot be solved, or 0.
-  template <typename Rows>
-  int solve(const Rows& rows, const Eigen::VectorXd& x, std::vector<Vector3>& deviations) const {
+  int solve(const std::vector<Row>& rows, const Eigen::VectorXd& x, std::vector<Vector3>& deviations) const {
     deviations.assign(rows.size(), Vector3::Zero());
     std::vector<int> failed(rows.size(), 0);
-    std::vector<Pose> offsets;
-    for (std::size_t offset = 0; offset < v_.freedom.offsets; ++offset)
-      offsets.push_back(offset_shift(v_, x, offset));
+    const BestShift shift = values_of(v_, x);
     for_each_slice(rows.size(), threads_, [&](std::size_t begin, std::size_t count) {
       std::vector<TipPosition> positions;
       std::vector<ForwardRequest> requests;
       for (std::size_t i = begin; i < begin + count; ++i) {
         const Row& row = rows[i];
-        const Pose& by = offsets[row.offset];
+        const Pose& by = shift.offsets[row.offset];
         const Vector3 axis = tool_axis_at_home(*row.at.wanted.model);
         positions.push_back(row.at.wanted);
         requests.push_back({.model = row.at.wanted.model,
-                            .target = by * row.at.command + value_of(v_.lengths, x, row.at.tool) * axis +
-                                      value_of(v_.radii, x, row.at.tool) * row.at.away,
+                            .target = by * row.at.command + length_of(shift.lengths, row.at.tool) * axis +
+                                      length_of(shift.radii, row.at.tool) * row.at.away,
                             .F = row.at.F,
                             .directions = row.at.directions});
         if (row.at.wanted.R_MT) requests.back().R = by.R * *row.at.wanted.R_MT;
@@ -187,14 +179,15 @@ class Search {
     return first == failed.end() ? 0 : *first;
   }
 
-  std::vector<int> columns_of(const Row& row) const {
-    std::vector<int> columns(static_cast<std::size_t>(v_.each()));
-    std::iota(columns.begin(), columns.end(), v_.first_of(row.offset));
-    if (const auto length = v_.lengths.find(row.at.tool); length != v_.lengths.end())
-      columns.push_back(length->second);
+  // The variables on which a place depends: those of its offset are the first.
+  void set_columns(Row& row) const {
+    std::size_t count = 0;
+    const auto add = [&](int variable) { row.row.column[count++] = variable; };
+    for (int k = 0; k < v_.each(); ++k) add(v_.first_of(row.offset) + k);
+    if (const auto length = v_.lengths.find(row.at.tool); length != v_.lengths.end()) add(length->second);
     if (const auto radius = v_.radii.find(row.at.tool); radius != v_.radii.end() && !row.at.away.isZero(0))
-      columns.push_back(radius->second);
-    return columns;
+      add(radius->second);
+    row.row.J.setZero(3, static_cast<Eigen::Index>(count));
   }
 
   // Difference quotients at the present shift. All places are solved with the k-th of their variables
@@ -202,23 +195,20 @@ class Search {
   void differentiate(std::vector<Row>& rows) const {
     std::vector<Vector3> here, there;
     solve(rows, x_, here);
-    std::vector<std::vector<int>> columns;
     for (std::size_t i = 0; i < rows.size(); ++i) {
-      columns.push_back(columns_of(rows[i]));
-      const auto count = static_cast<Eigen::Index>(columns.back().size());
       rows[i].row.r = here[i];
-      rows[i].row.J.setZero(3, count);
-      std::ranges::copy(columns.back(), rows[i].row.column.begin());
+      set_columns(rows[i]);
     }
     Eigen::VectorXd x = x_;
     for (int variable = 0; variable < v_.count; ++variable) {
       std::vector<Row> some;
       std::vector<std::pair<std::size_t, Eigen::Index>> of;
       for (std::size_t i = 0; i < rows.size(); ++i)
-        if (const auto at = std::ranges::find(columns[i], variable); at != columns[i].end()) {
-          some.push_back(rows[i]);
-          of.emplace_back(i, at - columns[i].begin());
-        }
+        for (Eigen::Index k = 0; k < rows[i].row.J.cols(); ++k)
+          if (rows[i].row.column[static_cast<std::size_t>(k)] == variable) {
+            some.push_back(rows[i]);
+            of.emplace_back(i, k);
+          }
       if (some.empty()) continue;
       x[variable] = x_[variable] + step;
       solve(some, x, there);

@@ -24,11 +24,6 @@ bool same_contour(const Job& job, std::size_t a, std::size_t b) {
   return first.group != 0 && first.group == second.group;
 }
 
-double value_of(const std::map<long, double>& values, long tool) {
-  const auto found = values.find(tool);
-  return found == values.end() ? 0 : found->second;
-}
-
 void move_curve(Curve& curve, const Vector3& start, const Vector3& end) {
   curve.start += start;
   curve.end += end;
@@ -47,6 +42,11 @@ Vector3 away_from_contour(const Job& job, std::size_t segment, double u) {
   return start + u * (end - start);
 }
 
+double length_of(const std::map<long, double>& lengths, long tool) {
+  const auto found = lengths.find(tool);
+  return found == lengths.end() ? 0 : found->second;
+}
+
 Vector3 tool_axis_at_home(const Model& model) {
   return tip(model.mechanism, model.home).R.col(2);
 }
@@ -54,14 +54,14 @@ Vector3 tool_axis_at_home(const Model& model) {
 void shift_pieces(const Job& job, const ConstantShift& shift, std::vector<Piece>& pieces) {
   const Vector3 axis = tool_axis_at_home(job.model);
   for (Piece& piece : pieces) {
-    const long tool = job.program.moves[move_of(job, piece)].tool;
-    const double radius = piece.segment == no_segment ? 0 : value_of(shift.radii, tool);
+    const long tool = job.program.moves[piece.move].tool;
+    const double radius = piece.segment == no_segment ? 0 : length_of(shift.radii, tool);
     if (!shift.frames.empty()) {
       const Pose& by = shift.frames[piece.frame];
       piece.commanded = by * piece.commanded;
       if (piece.turn) piece.turn = by.R * *piece.turn;
     }
-    const Vector3 back = value_of(shift.lengths, tool) * axis;
+    const Vector3 back = length_of(shift.lengths, tool) * axis;
     move_curve(piece.commanded, back, back);
     if (piece.commanded.arc) piece.commanded.arc->centre += back;
     if (radius == 0) continue;

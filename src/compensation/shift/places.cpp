@@ -41,7 +41,7 @@ void ShiftPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
     const Move& move = job.program.moves[w.move];
     ShiftPlace place{.number = count_,
                      .line = w.line,
-                     .wanted = wanted_at(model_with(job.model, job.tools, move.tool), w),
+                     .wanted = wanted_at(model_of(job, w.move), w),
                      .command = original_command(job, move.frame, w.p_MT),
                      .F = w.wrench,
                      .directions = w.directions,

@@ -67,31 +67,6 @@ void add_fixture(const Solved& at) {
   }
 }
 
-void add_sources(const Solved& at) {
-  const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
-    deviations(at, command, stage, [&](std::size_t i, const Vector6& d, ForwardAnswer&&) {
-      (*at.waypoints[i].causes).*result = d;
-    });
-  };
-  add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
-  add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
-  add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
-  if (any_machine(at.places, has_preload))
-    add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
-  const bool weight = any_machine(at.places, has_weight);
-  if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
-  add_fixture(at);
-  for (Waypoint& w : at.waypoints) {
-    if (!knows_before(w)) continue;
-    Causes& c = *w.causes;
-    const Vector6 preloads = c.superposition;  // act in each of the others, too
-    c.geometry -= preloads;
-    c.load -= preloads + c.fixture;
-    if (weight) c.gravity -= preloads;
-    c.superposition = preloads + c.geometry + c.load + c.fixture + c.gravity;
-  }
-}
-
 }  // namespace
 
 void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<Waypoint> waypoints) {
@@ -105,7 +80,28 @@ void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<W
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
   for (Waypoint& w : waypoints)
     if (knows_before(w)) w.causes.emplace();
-  add_sources({solver, places, waypoints});
+  const Solved at{solver, places, waypoints};
+  const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
+    deviations(at, command, stage,
+               [&](std::size_t i, const Vector6& d, ForwardAnswer&&) { (*waypoints[i].causes).*result = d; });
+  };
+  add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
+  add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
+  add(&ForwardPlace::emitted, {.load = 0}, &Causes::air);
+  if (any_machine(places, has_preload))
+    add(&ForwardPlace::original, {.errors = 0, .load = 0, .gravity = 0}, &Causes::superposition);
+  const bool weight = any_machine(places, has_weight);
+  if (weight) add(&ForwardPlace::original, {.errors = 0, .load = 0}, &Causes::gravity);
+  add_fixture(at);
+  for (Waypoint& w : waypoints) {
+    if (!knows_before(w)) continue;
+    Causes& c = *w.causes;
+    const Vector6 preloads = c.superposition;  // act in each of the others, too
+    c.geometry -= preloads;
+    c.load -= preloads + c.fixture;
+    if (weight) c.gravity -= preloads;
+    c.superposition = preloads + c.geometry + c.load + c.fixture + c.gravity;
+  }
 }
 
 }  // namespace counterflex

@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/plan/places.hpp"
+#include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/solver.hpp"
 #include "compensation/tuning.hpp"
@@ -65,12 +67,6 @@ void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd&
   }
 }
 
-// The branch is followed straight from place to place: around an arc and a turn in steps of 22.5 degrees.
-int parts_of(const Segment& segment) {
-  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0, turn_of(segment));
-  return 1 + static_cast<int>(turned / angle_between_places);
-}
-
 }  // namespace
 
 FollowedPath follow_branch(const Job& job) {
@@ -79,7 +75,8 @@ FollowedPath follow_branch(const Job& job) {
   std::optional<TipPosition> at = job.from;
   for (const Segment& segment : job.path.segments) {
     const Model& model = model_of(job, segment);
-    const int parts = parts_of(segment);
+    // Straight from place to place: around an arc and a turn in steps of 22.5 degrees.
+    const int parts = 1 + static_cast<int>(angle_along(segment) / angle_between_places);
     for (int k = 0; k <= parts; ++k) {
       const double u = static_cast<double>(k) / parts;
       const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
@@ -109,13 +106,6 @@ FollowedPath follow_branch(const Job& job) {
 }
 
 namespace {
-
-TipPosition wanted_end(const Job& job, const Piece& piece, const Model& model) {
-  if (piece.segment == no_segment)
-    return {&model, piece.wanted, piece.R_wanted ? std::optional(*piece.R_wanted) : std::nullopt};
-  const Segment& segment = job.path.segments[piece.segment];
-  return {&model, segment.wanted.end, orientation_at(segment, 1)};
-}
 
 // What a target states of a rotary axis whose control shows `angle` (rad), as a number.
 int stated(StatedTurns turns, double angle) {
@@ -183,12 +173,12 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
   std::optional<PlaceSolver> solver;
   for (const Piece& piece : pieces) {
     if (piece.u1 != 1 || !piece.turn) continue;
-    const Move& move = job.program.moves[move_of(job, piece)];
+    const Move& move = job.program.moves[piece.move];
     const StatedTurns turns = move.orientation ? move.orientation->stated_turns : StatedTurns::none;
     if (turns == StatedTurns::none) continue;
-    const Model& model = model_with(job.model, job.tools, move.tool);
+    const Model& model = model_of(job, piece.move);
     if (!solver) solver.emplace(job);
-    const NominalResult wanted = solver->nominal(wanted_end(job, piece, model));
+    const NominalResult wanted = solver->nominal(wanted_at(job, piece, 1, model));
     const NominalResult commanded =
         solver->nominal({&model, piece.commanded.end, orientation_at(*piece.turn, 1)});
     if (wanted.status != Status::converged || commanded.status != Status::converged) continue;

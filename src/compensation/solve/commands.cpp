@@ -21,13 +21,7 @@ Vector3 target_of(const Job& job, const Move& move) {
 }
 
 Curve command_of(const Job& job, const Move& move) {
-  if (!move.arc)
-    return {position_of_words(job, move, move.start_mm), position_of_words(job, move, move.end_mm), {}};
-  Curve curve = curve_of(move);
-  curve.start *= mm;
-  curve.end *= mm;
-  curve.arc->centre *= mm;
-  return job.path.frames[move.frame].X_MW * curve;
+  return curve_in(job.path.frames[move.frame].X_MW, move);
 }
 
 std::optional<Matrix3> orientation_of(const Job& job, const Move& move) {
@@ -62,33 +56,28 @@ Vector3 hole_of(const Move& move) {
   return move.cycle ? bottom_of(move) : move.end_mm;
 }
 
-namespace {
-
-Piece piece_of_end(const Job& job, const Move& original, const Vector3& commanded, const Vector3& wanted) {
-  const auto move = static_cast<std::size_t>(&original - job.program.moves.data());
-  return {.segment = no_segment,
-          .line = original.line,
-          .frame = original.frame,
-          .commanded = {commanded, commanded, {}},
-          .wanted = wanted,
-          .end_only = true,
-          .move = move,
-          .directions = directions_at(job, move, 1, Side::before)};
-}
-
-}  // namespace
-
-Piece piece_of_hole(const Job& job, const Move& original, const Move& found) {
-  const WorkFrame& frame = job.path.frames[original.frame];
-  return piece_of_end(job, original, frame.X_MW * (bottom_of(found) * mm),
-                      wanted_frame(frame) * (bottom_of(original) * mm));
-}
-
-Piece piece_of_position(const Job& job, const Move& original, const Move& found) {
-  Piece piece = piece_of_end(job, original, target_of(job, found), wanted_of(job, original));
-  if (const auto R = orientation_of(job, found)) piece.turn = Turn{*R, *R, {}};
-  piece.R_wanted = orientation_of(job, original);
+Piece piece_of_end(const Job& job, const Move& original, const Move& found) {
+  const Vector3 commanded =
+      original.cycle ? position_of_words(job, original, bottom_of(found)) : target_of(job, found);
+  Piece piece{.segment = no_segment,
+              .move = static_cast<std::size_t>(&original - job.program.moves.data()),
+              .line = original.line,
+              .frame = original.frame,
+              .commanded = {commanded, commanded, {}},
+              .end_only = true};
+  const std::optional<Matrix3> R = original.cycle ? std::nullopt : orientation_of(job, found);
+  if (R) piece.turn = Turn{*R, *R, {}};
   return piece;
+}
+
+TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model& model) {
+  if (piece.segment != no_segment) {
+    const Segment& segment = job.path.segments[piece.segment];
+    return {&model, point_at(segment.wanted, u), orientation_at(segment, u)};
+  }
+  const Move& move = job.program.moves[piece.move];
+  if (move.cycle) return {&model, wanted_frame(job.path.frames[move.frame]) * (bottom_of(move) * mm), {}};
+  return {&model, wanted_of(job, move), orientation_of(job, move)};
 }
 
 std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {

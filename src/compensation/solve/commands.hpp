@@ -40,12 +40,12 @@ Vector3 bottom_of(const Move& move);
 /// The place of the hole that a move drills, in program coordinates (mm): its bottom, or where it is called.
 Vector3 hole_of(const Move& move);
 
-/// The piece of the hole of `original`, whose bottom is that of `found`: the same move, or the one that was
-/// written for it.
-Piece piece_of_hole(const Job& job, const Move& original, const Move& found);
+/// The piece of a move without a segment: of the hole of a cycle, or of a position that is reached from one
+/// that is not known. `found` commands it: the same move, or the one that was written for it.
+Piece piece_of_end(const Job& job, const Move& original, const Move& found);
 
-/// The piece of a position that is reached from one that is not known.
-Piece piece_of_position(const Job& job, const Move& original, const Move& found);
+/// The wanted place at fraction `u` of the segment of a piece, or of one without a segment.
+TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model& model);
 
 /// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no
 /// correction holds there any more. Where only '/', another work offset or what is not followed makes a

@@ -103,22 +103,18 @@ std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, i
                   size / deg, job.options.max_turn / deg)};
 }
 
+Vector3 controlled_axes(const Mechanism& mechanism) {
+  Vector3 axes = Vector3::Zero();
+  for (const Component c : mechanism.controlled)
+    if (c <= Component::z) axes[static_cast<int>(c)] = 1;
+  return axes;
+}
+
 namespace {
 
 double controlled_position(const Mechanism& mechanism, const Vector6& deviation) {
-  Vector3 miss = Vector3::Zero();
-  for (Component c : mechanism.controlled)
-    if (c <= Component::z) miss[static_cast<int>(c)] = deviation[static_cast<int>(c)];
-  return miss.norm();
+  return deviation.head<3>().cwiseProduct(controlled_axes(mechanism)).norm();
 }
-
-}  // namespace
-
-double position_miss(const Job& job, const Waypoint& w) {
-  return controlled_position(job.model.mechanism, w.after);
-}
-
-namespace {
 
 // By how much a rotation vector tilts `axis`. Of a large turn about the axis its components are another
 // angle.
@@ -128,6 +124,10 @@ double tilt_angle(const Vector3& turn, const Vector3& axis) {
 }
 
 }  // namespace
+
+double position_miss(const Job& job, const Waypoint& w) {
+  return controlled_position(job.model.mechanism, w.after);
+}
 
 double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
                           const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation) {
@@ -141,9 +141,7 @@ double share_of_tolerance(const CompensationOptions& options, const Mechanism& m
 
 bool is_below_band(const Job& job, const Waypoint& w, double share) {
   if (!w.covariance) return false;
-  Matrix3 controlled = Matrix3::Zero();
-  for (const Component c : job.model.mechanism.controlled)
-    if (c <= Component::z) controlled(static_cast<int>(c), static_cast<int>(c)) = 1;
+  const Matrix3 controlled = controlled_axes(job.model.mechanism).asDiagonal();
   const auto is_below = [&](const Matrix3& part, const Vector3& d, const Matrix3& C) {
     return (part * d).norm() <= share * band(part * d, part * C * part.transpose());
   };

@@ -18,6 +18,9 @@ std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, 
 /// The failure of a correction that turns the tool (rotation vector, rad) by more than the limit.
 std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, int line);
 
+/// 1 for the axes of M along which the machine controls the position of the tip, else 0.
+Vector3 controlled_axes(const Mechanism& mechanism);
+
 /// By how much the words of a move as read, and positions that it does not repeat, may be rounded: half of
 /// the last digit times sqrt 3 (m).
 double rounding_as_read(const Move& move);

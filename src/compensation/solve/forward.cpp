@@ -13,10 +13,6 @@
 namespace counterflex {
 namespace {
 
-std::size_t frame_of(const SampledPiece& sampled) {
-  return sampled.segment != nullptr ? sampled.segment->frame : sampled.piece->frame;
-}
-
 // `share`: of the way of the piece, from the sample before.
 Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, double share) {
   const PieceSample& sample = all.samples[s];
@@ -24,7 +20,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   const Piece& piece = *sampled.piece;
   Waypoint w;
   w.segment = piece.segment;
-  w.move = static_cast<std::uint32_t>(move_of(job, piece));
+  w.move = static_cast<std::uint32_t>(piece.move);
   w.fraction = sample.u;
   w.line = piece.line;
   w.corrected_line = piece.corrected_line;
@@ -36,7 +32,6 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   if (all.places[s].R_MT) w.R_MT = *all.places[s].R_MT;
   w.wrench = all.requests[s].F;
   if (const Segment* segment = sampled.segment) {
-    w.line = segment->line;
     w.cutting = segment->cutting;
     w.weight = segment->cutting ? share * (piece.u1 - piece.u0) * length(segment->wanted) : 0;
     w.s = segment->s_start + sample.u * (segment->s_end - segment->s_start);
@@ -47,7 +42,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   w.rho = all.answers[s].rho;
   w.directions = all.requests[s].directions;
   if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
-  w.correction.head<3>() = all.requests[s].target - original_command(job, frame_of(sampled), w.p_MT);
+  w.correction.head<3>() = all.requests[s].target - original_command(job, piece.frame, w.p_MT);
   if (w.R_MT && all.requests[s].R) w.correction.tail<3>() = rotation_between(*all.requests[s].R, *w.R_MT);
   return w;
 }
@@ -89,7 +84,7 @@ void add_covariances(const Job& job, PlaceSolver& solver, const PieceSamples& al
     const Equilibrium found = solver.equilibrium(request, all.answers[all.order[i]]);
     if (found.status != Status::converged) continue;
     const Load load{request.F, job.forces.at_platform()};
-    const DatumTangents& datum = job.uncertainties->by_frame[frame_of(all.piece_of(all.order[i]))];
+    const DatumTangents& datum = job.uncertainties->by_frame[all.piece_of(all.order[i]).piece->frame];
     waypoints[i].covariance = uncertainty->of_tip(found.configuration, load, *work, datum).sum();
     waypoints[i].insignificant = may_stay && is_below_band(job, waypoints[i]);
   }
@@ -102,7 +97,7 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
   places.reserve(all.order.size());
   for (const std::size_t s : all.order) {
     const ForwardRequest& request = all.requests[s];
-    const Vector3 original = original_command(job, frame_of(all.piece_of(s)), all.places[s].p_MT);
+    const Vector3 original = original_command(job, all.piece_of(s).piece->frame, all.places[s].p_MT);
     places.push_back({request.model,
                       {original, all.places[s].R_MT},
                       {request.target, request.R, all.answers[s].rho},
@@ -124,10 +119,10 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
 
 Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const Waypoint& w) {
   const SampledPiece& at = all.piece_of(s);
-  const long tool = job.program.moves[move_of(job, *at.piece)].tool;
+  const long tool = job.program.moves[at.piece->move].tool;
   Failure failure = status_failure(
       job, w.status,
-      {*at.model, job.path.frames[frame_of(at)], tool, all.requests[s].target, all.requests[s].R, w.rho},
+      {*at.model, job.path.frames[at.piece->frame], tool, all.requests[s].target, all.requests[s].R, w.rho},
       w.line);
   failure.corrected_line = w.corrected_line;
   return failure;

@@ -35,7 +35,7 @@ Place place_on(const Model& model, const Segment& segment, double u) {
 
 void add_segment(const Job& job, const Segment& segment, std::vector<Place>& places) {
   const Model& model = model_of(job, segment);
-  const double turned = std::max(segment.wanted.arc ? segment.wanted.arc->sweep : 0.0, turn_of(segment));
+  const double turned = angle_along(segment);
   const bool straight = only_slides(model.mechanism) && turned == 0;
   const double steps =
       straight ? 1 : std::ceil(length(segment.wanted) / longest_step + turned / angle_between_places);
@@ -51,7 +51,7 @@ void add_segment(const Job& job, const Segment& segment, std::vector<Place>& pla
 void add_positions(const Job& job, std::size_t m, std::vector<Place>& places) {
   const Move& move = job.program.moves[m];
   if (!all_known(move.known_end)) return;
-  const Model& model = model_with(job.model, job.tools, move.tool);
+  const Model& model = model_of(job, m);
   const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
   const std::optional<Matrix3> R = orientation_of(job, move);
   const auto add = [&](double u, const Vector3& p_mm) {

@@ -3,6 +3,8 @@
 #include <algorithm>
 
 #include "compensation/plan/places.hpp"
+#include "compensation/solve/commands.hpp"
+#include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
 
 namespace counterflex {
@@ -23,23 +25,18 @@ struct Slice : PieceSamples {
   const Job& job;
   const Questions& questions;
   PlaceSolver& solver;
-  Vector3 judged = Vector3::Zero();  // 1 for axes of M in which the tip is judged, else 0
+  const Vector3 judged;  // axes of M
   ForceCursor cursor{};
   std::vector<Stretch> stretches{};
   std::vector<double> fractions{};  // places of the segment `fractions_of`
   std::size_t fractions_of = no_segment;
   std::size_t end = no_sample;  // pieces from this one on have no valid answers: it fails
 
-  Slice(const Job& of, const Questions& asked, PlaceSolver& by) : job(of), questions(asked), solver(by) {
-    for (const Component c : job.model.mechanism.controlled)
-      if (c <= Component::z) judged[static_cast<int>(c)] = 1;
-  }
+  Slice(const Job& of, const Questions& asked, PlaceSolver& by)
+      : job(of), questions(asked), solver(by), judged(controlled_axes(of.model.mechanism)) {}
 
   TipPosition wanted_at(const SampledPiece& sampled, double u) const {
-    if (const Segment* segment = sampled.segment)
-      return {sampled.model, point_at(segment->wanted, u), orientation_at(*segment, u)};
-    const Piece& piece = *sampled.piece;
-    return {sampled.model, piece.wanted, piece.R_wanted ? std::optional(*piece.R_wanted) : std::nullopt};
+    return counterflex::wanted_at(job, *sampled.piece, u, *sampled.model);
   }
 
   // Position error of the tip in the axes in which it is judged (m), and its tilt by its lever (m).
@@ -59,9 +56,8 @@ Vector6 force_at(Slice& slice, const PieceSample& sample) {
 }
 
 Directions directions_of(const Slice& slice, const PieceSample& sample) {
-  const SampledPiece& sampled = slice.pieces[sample.piece];
-  if (sampled.segment == nullptr) return sampled.piece->directions;
-  return directions_at(slice.job, sampled.segment->move, sample.u, sample.side);
+  const Piece& piece = *slice.pieces[sample.piece].piece;
+  return directions_at(slice.job, piece.move, sample.u, sample.side);
 }
 
 std::size_t add_sample(Slice& slice, const PieceSample& sample, const Vector6& F) {
@@ -180,11 +176,6 @@ void add_samples(Slice& slice, std::size_t t) {
   }
 }
 
-const Model& model_of(const Job& job, const Piece& piece) {
-  if (job.tools == nullptr || job.tools->empty()) return job.model;
-  return model_with(job.model, job.tools, job.program.moves[move_of(job, piece)].tool);
-}
-
 void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional<Vector3>& command) {
   const Vector3* last = command ? &*command : nullptr;
   slice.pieces.reserve(pieces.size());
@@ -193,7 +184,7 @@ void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional
     slice.pieces.push_back(
         {.piece = &piece,
          .segment = position ? nullptr : &slice.job.path.segments[piece.segment],
-         .model = &model_of(slice.job, piece),
+         .model = &model_of(slice.job, piece.move),
          .begins_elsewhere = last == nullptr || *last != piece.commanded.start,
          .begins_run = !position && piece.u0 == 0 && slice.job.forces.begins_run(piece.segment)});
     last = &piece.commanded.end;

@@ -38,21 +38,23 @@ Eigen::VectorXd commanded_for(const Mechanism& mechanism, const Eigen::VectorXd&
   return mechanism.reversal.empty() ? joints : Eigen::VectorXd(joints - lag_of(mechanism, directions));
 }
 
-// The first requests that have the same model and stage.
+// Whether the kernel answers two requests in one call.
+bool go_together(const TipPosition& a, const TipPosition& b) {
+  return a.model == b.model;
+}
+
+bool go_together(const TargetRequest& a, const TargetRequest& b) {
+  return a.model == b.model && a.R_MT.has_value() == b.R_MT.has_value();
+}
+
+bool go_together(const ForwardRequest& a, const ForwardRequest& b) {
+  return a.model == b.model && a.stage == b.stage && (a.rho == nullptr) == (b.rho == nullptr);
+}
+
+// How many of the first requests go together.
 template <typename Request>
 std::size_t length_of_run(std::span<const Request> requests) {
-  const auto differs = [&](const Request& r) {
-    if constexpr (requires { r.stage; })
-      if (!(r.stage == requests.front().stage)) return true;
-    if constexpr (requires { r.rho; })
-      if ((r.rho == nullptr) != (requests.front().rho == nullptr)) return true;
-    if constexpr (requires {
-                    r.F;
-                    r.R_MT;
-                  })
-      if (r.R_MT.has_value() != requests.front().R_MT.has_value()) return true;
-    return r.model != requests.front().model;
-  };
+  const auto differs = [&](const Request& r) { return !go_together(r, requests.front()); };
   return static_cast<std::size_t>(std::find_if(requests.begin(), requests.end(), differs) - requests.begin());
 }
 
@@ -261,12 +263,8 @@ NominalResult PlaceSolver::nominal(const TipPosition& at) {
 }
 
 NominalResult PlaceSolver::nominal(OfModel& m, const TipPosition& at) {
-  return follow(m.model, nominal_near(m, at), m.pose(at.p_MT, at.R_MT));
-}
-
-const Configuration& PlaceSolver::nominal_near(OfModel& m, const TipPosition& at) {
   const Configuration* near = m.batch ? m.batch->nominal_near(m.place(at.p_MT, at.R_MT)) : nullptr;
-  return near != nullptr ? *near : m.model.home;
+  return follow(m.model, near != nullptr ? *near : m.model.home, m.pose(at.p_MT, at.R_MT));
 }
 
 Status PlaceSolver::join(const TipPosition& from, const TipPosition& to) {

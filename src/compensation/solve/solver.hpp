@@ -120,7 +120,6 @@ class PlaceSolver {
   void machine_forwards(std::span<const ForwardRequest> requests, std::span<ForwardAnswer> answers,
                         StopAt stop);
   OfModel& of(const Model& model);
-  static const Configuration& nominal_near(OfModel& m, const TipPosition& at);
   WantedPose wanted_alone(OfModel& m, const TipPosition& at);
   TargetAnswer target_alone(OfModel& m, const TargetRequest& request);
   ForwardAnswer forward_alone(OfModel& m, const ForwardRequest& request);

@@ -45,9 +45,8 @@ void refuse_form(const Job& job, const Move& move) {
         "the control changes A, B and C evenly between targets, so another turn would tilt the tool there");
 }
 
-}  // namespace
-
-struct SpinSearch::Impl {
+// The stops and places of the windows so far.
+struct SpinSearch {
   /// Of a move's end: its number in the program, and the fraction of the way to the stop at which it is.
   struct Node {
     std::size_t move = 0;
@@ -169,7 +168,7 @@ struct SpinSearch::Impl {
   // A position that is reached from an unknown one.
   void add_first(const Job& job, std::size_t m, bool can_turn) {
     const Move& move = job.program.moves[m];
-    const Model& model = model_with(job.model, job.tools, move.tool);
+    const Model& model = model_of(job, m);
     requests.push_back({.model = &model,
                         .command = target_of(job, move),
                         .wanted = {*orientation_of(job, move), wanted_of(job, move)},
@@ -236,40 +235,51 @@ struct SpinSearch::Impl {
         result.deviations[i] = not_allowed;
     return result;
   }
+
+  // The next window.
+  void add(const Job& job) {
+    std::size_t next = 0;
+    const std::vector<Segment>& segments = job.path.segments;
+    for (std::size_t m = 0; m < job.program.moves.size(); ++m) {
+      const bool has_segment = next < segments.size() && segments[next].move == m;
+      add_move(job, m, has_segment ? next++ : no_segment);
+    }
+    close(job);  // requests are those of the window
+    moves += job.program.moves.size();
+    solve(job);
+  }
+
+  SpinChoice best() const {
+    const std::vector<int> turns = best_turns(allowed());
+    SpinChoice choice{.at_end = std::vector<double>(moves, 0.0), .targets = targets};
+    std::size_t n = 0;
+    for (std::size_t i = 0; i < turns.size(); ++i) {
+      const bool is_linked = graph.stops[i].linked;
+      const int from = (is_linked ? turns[i - 1] : turns[i]) - spin_zero, to = turns[i] - spin_zero;
+      for (; n < nodes_end[i]; ++n) {
+        const double turn = (from + (to - from) * nodes[n].fraction) * spin_step;
+        choice.at_end[nodes[n].move] = turn;
+        choice.turned += turn != 0;
+        choice.least = std::min(choice.least, turn);
+        choice.most = std::max(choice.most, turn);
+      }
+    }
+    return choice;
+  }
 };
 
-SpinSearch::SpinSearch() : impl_(std::make_unique<Impl>()) {}
-SpinSearch::~SpinSearch() = default;
+}  // namespace
 
-void SpinSearch::add(const Job& job) {
-  std::size_t next = 0;
-  const std::vector<Segment>& segments = job.path.segments;
-  for (std::size_t m = 0; m < job.program.moves.size(); ++m) {
-    const bool has_segment = next < segments.size() && segments[next].move == m;
-    impl_->add_move(job, m, has_segment ? next++ : no_segment);
+SpinChoice best_spins(JobWindows& windows, int threads, const std::function<void(const Job&)>& read) {
+  SpinSearch search;
+  JobWindow window;
+  while (windows.next(window)) {
+    Job job = windows.job(window);
+    read(job);
+    job.options.threads = threads;
+    search.add(job);
   }
-  impl_->close(job);  // requests are those of the window
-  impl_->moves += job.program.moves.size();
-  impl_->solve(job);
-}
-
-SpinChoice SpinSearch::best() const {
-  const std::vector<int> turns = best_turns(impl_->allowed());
-  SpinChoice choice{.at_end = std::vector<double>(impl_->moves, 0.0), .targets = impl_->targets};
-  std::size_t n = 0;
-  for (std::size_t i = 0; i < turns.size(); ++i) {
-    const bool linked = impl_->graph.stops[i].linked;
-    const int from = (linked ? turns[i - 1] : turns[i]) - spin_zero, to = turns[i] - spin_zero;
-    for (; n < impl_->nodes_end[i]; ++n) {
-      const Impl::Node& node = impl_->nodes[n];
-      const double turn = (from + (to - from) * node.fraction) * spin_step;
-      choice.at_end[node.move] = turn;
-      choice.turned += turn != 0;
-      choice.least = std::min(choice.least, turn);
-      choice.most = std::max(choice.most, turn);
-    }
-  }
-  return choice;
+  return search.best();
 }
 
 }  // namespace counterflex

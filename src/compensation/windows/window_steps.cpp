@@ -1,12 +1,35 @@
 #include "compensation/windows/window_steps.hpp"
 
+#include "compensation/emit/emit.hpp"
 #include "compensation/shift/commands.hpp"
 #include "compensation/solve/commands.hpp"
-#include "compensation/solve/failures.hpp"
+#include "counterflex/compensation/constant_shift.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
+
+// What every run carries from window to window.
+struct PathCarry {
+  std::optional<Vector3> command{};  // where the text ends, if that is known
+  Eigen::VectorXd actuators{};       // where the path ends, rotary ones counted on over full turns
+};
+
+// What compensating carries from window to window.
+struct WritingCarry {
+  Rewriter rewriter;
+  TextReader corrected;
+  EmitterState emitter{};
+  PathCarry path{};
+};
+
+// What verifying carries from window to window.
+struct VerifyingCarry {
+  CorrectedMoves found;
+  OtherLines lines{};
+  PathCarry path{};
+  std::optional<Failure> missed{};  // the first miss of the tolerance
+};
 
 // Where the last move ends; nothing where it comes from an unknown position.
 std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
@@ -79,43 +102,13 @@ void carry_path(const Job& job, PathCarry& carry, WindowWork& work) {
   if (!work.failed()) work.result.failure = turns_failure(job, work.actuators, carry.actuators);
 }
 
-}  // namespace
-
-WindowSteps steps_of_prediction(PathCarry& carry) {
-  return {.questions = {.before = true, .attribution = true, .inside = false},
-          .prepare = follow_window,
-          .write =
-              [&carry](const Job& job, WindowWork& work) {
-                work.pieces = original_pieces(job);
-                carry_path(job, carry, work);
-              },
-          .match = [](const Job&, WindowWork&) {},
-          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
-}
-
-WindowSteps steps_of_shifted_prediction(const ConstantShift& shift, PathCarry& carry) {
-  return {.questions = {.before = false, .attribution = false, .inside = false},
-          .prepare = [](const Job&, WindowWork&) {},
-          .write =
-              [&](const Job& job, WindowWork& work) {
-                work.pieces = original_pieces(job);
-                shift_pieces(job, shift, work.pieces);
-                carry_path(job, carry, work);
-              },
-          .match = [](const Job&, WindowWork&) {},
-          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
-}
-
-WindowSteps steps_of_bands(PathCarry& carry) {
-  return {.questions = {.before = false, .bands = true},
-          .prepare = [](const Job&, WindowWork&) {},
-          .write =
-              [&](const Job& job, WindowWork& work) {
-                work.pieces = original_moves(job);
-                carry_path(job, carry, work);
-              },
-          .match = [](const Job&, WindowWork&) {},
-          .judge = [](const Job&, WindowWork&, const std::optional<Failure>&) {}};
+// Solves `pieces_of` the original program forward.
+template <typename PiecesOf>
+WindowSteps steps_of_original(const Questions& questions, PathCarry& carry, PiecesOf pieces_of) {
+  return {.questions = questions, .write = [&carry, pieces_of](const Job& job, WindowWork& work) {
+            work.pieces = pieces_of(job);
+            carry_path(job, carry, work);
+          }};
 }
 
 WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution) {
@@ -137,23 +130,77 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
                 take(job, match_window(job, work.plan, carry.lines, carry.found), work);
                 carry_path(job, carry.path, work);
               },
-          .match = [](const Job&, WindowWork&) {},
           .judge =
               [&carry](const Job&, WindowWork&, const std::optional<Failure>& missed) {
                 if (!carry.missed) carry.missed = missed;
               }};
 }
 
+// Takes a program that is one window through all steps.
 Compensation run_steps(const Job& job, const WindowSteps& steps) {
   WindowWork work;
   for (const WindowSteps::Step* step : {&steps.prepare, &steps.write, &steps.match})
-    if (!work.failed()) (*step)(job, work);
+    if (*step && !work.failed()) (*step)(job, work);
   if (work.failed()) return std::move(work.result);
   ForwardRun run = solve_pieces(job, work.pieces, steps.questions, work.command);
   work.result.waypoints = std::move(run.waypoints);
   work.result.failure = run.failure;
   steps.judge(job, work, tolerance_failure(job, work.result.waypoints));
   return std::move(work.result);
+}
+
+}  // namespace
+
+std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events) {
+  PathCarry carry;
+  WindowSteps steps = steps_of_original({.attribution = true, .inside = false}, carry, original_pieces);
+  steps.prepare = follow_window;
+  return run_windows(windows, threads, steps, events);
+}
+
+std::optional<Failure> predict_bands(JobWindows& windows, int threads, const WindowEvents& events) {
+  PathCarry carry;
+  return run_windows(windows, threads,
+                     steps_of_original({.before = false, .bands = true}, carry, original_moves), events);
+}
+
+// The way there is not followed: only where the text ends is carried.
+std::optional<Failure> predict_shifted_windows(JobWindows& windows, int threads, const ConstantShift& shift,
+                                               const WindowEvents& events) {
+  PathCarry carry;
+  const auto shifted_pieces = [&shift](const Job& job) {
+    std::vector<Piece> pieces = original_pieces(job);
+    shift_pieces(job, shift, pieces);
+    return pieces;
+  };
+  return run_windows(windows, threads,
+                     steps_of_original({.before = false, .inside = false}, carry, shifted_pieces), events);
+}
+
+std::optional<Failure> compensate_windows(JobWindows& windows, const CompensationOptions& options,
+                                          TextReader corrected, bool attribution,
+                                          const WindowEvents& events) {
+  WritingCarry carry{Rewriter(options.write), std::move(corrected)};
+  return run_windows(windows, options.threads, steps_of_compensation(carry, attribution), events);
+}
+
+std::optional<Failure> verify_windows(JobWindows& windows, int threads, ProgramReader& corrected,
+                                      bool attribution, const WindowEvents& events) {
+  std::array<bool, 3> ignored{};
+  VerifyingCarry carry{CorrectedMoves([&](Program& window) {
+    if (!corrected.next()) return false;
+    corrected.take_window(window);
+    ignore_axes(window, ignored);
+    return true;
+  })};
+  WindowSteps steps = steps_of_verification(carry, attribution);
+  steps.write = [&, match = steps.write](const Job& job, WindowWork& work) {
+    if (!job.program.moves.empty()) ignored = job.program.moves.front().ignored;
+    match(job, work);
+  };
+  if (auto failure = run_windows(windows, threads, steps, events)) return failure;
+  if (auto failure = match_end(carry.lines, carry.found)) return failure;
+  return carry.missed;
 }
 
 Compensation compensate(const Job& job, bool attribution) {

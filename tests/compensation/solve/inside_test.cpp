@@ -28,8 +28,12 @@ std::vector<Piece> right_at_ends(const Shop& shop) {
   };
   for (std::size_t s = 0; s < shop.path.segments.size(); ++s) {
     const Segment& segment = shop.path.segments[s];
-    Piece piece{
-        .segment = s, .line = segment.line, .commanded = segment.wanted, .end_only = !segment.cutting};
+    Piece piece{.segment = s,
+                .move = segment.move,
+                .line = segment.line,
+                .frame = segment.frame,
+                .commanded = segment.wanted,
+                .end_only = !segment.cutting};
     piece.commanded.start = command(s, 0);
     piece.commanded.end = command(s, 1);
     pieces.push_back(piece);

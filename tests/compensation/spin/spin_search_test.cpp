@@ -55,14 +55,7 @@ Order order_of(const std::string& machine = hanging_text(), const std::string& t
 
 SpinChoice choice_for(const Order& order, std::size_t least_moves = whole_program) {
   WindowShop shop(order, least_moves);
-  SpinSearch search;
-  JobWindow window;
-  while (shop.windows->next(window)) {
-    Job job = shop.windows->job(window);
-    job.options.threads = order.threads;
-    search.add(job);
-  }
-  return search.best();
+  return best_spins(*shop.windows, order.threads, [](const Job&) {});
 }
 
 /// A program as it is to be commanded with turns, without a correction.

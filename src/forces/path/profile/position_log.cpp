@@ -23,12 +23,7 @@ constexpr double same_place = 1e-9;
 
 /// The segment in the coordinates of the log, m.
 Curve logged_curve(const ForceProfile& log, const Program& window, const Segment& segment) {
-  if (log.machine_coordinates) return segment.wanted;
-  Curve curve = curve_of(window.moves[segment.move]);
-  curve.start *= mm;
-  curve.end *= mm;
-  if (curve.arc) curve.arc->centre *= mm;
-  return curve;
+  return log.machine_coordinates ? segment.wanted : curve_in({}, window.moves[segment.move]);
 }
 
 /// Equal parts of a curve, none longer than `longest`, that are straight to within `flat`.
