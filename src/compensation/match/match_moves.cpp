@@ -65,6 +65,34 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
   return original.end_mm + held + *planned_mm - *planned_shift_mm_;
 }
 
+// How many more moves from `first` on end there, too, as the plan has it: a jump of the correction may be
+// less than a digit before the end.
+std::size_t MoveFinder::count_behind(const MatchedMoves& matched, std::size_t first, std::size_t others,
+                                     const Vector3& end_mm, double near_mm) {
+  const Move& original = matched.original;
+  const PlannedSegment& planned = plan_.segments[*matched.segment];
+  if (planned.knots.empty()) return 0;
+  const std::vector<Knot> knots = inner_knots(job_, plan_, *matched.segment);
+  if (knots.empty()) return 0;
+  const double length_mm = length(curve_of(original));
+  // Both ends of the text are rounded.
+  const auto is_planned_there = [&](const Knot& knot) {
+    const double before_mm = (1 - knot.u) * length_mm,
+                 off_mm = (knot.target - planned.knots.back().target).norm() / mm;
+    return length_mm > 0 && std::max(before_mm, off_mm) <= 2 * near_mm;
+  };
+  std::size_t j = first;
+  for (auto knot = knots.rbegin(); knot != knots.rend() && is_planned_there(*knot); ++knot, ++j) {
+    const CorrectedMove* found = found_.at(j);
+    if (found == nullptr || found->others != others) break;
+    if (next_number_ && found->move->block_number == next_number_) break;
+    if (!may_go_on(original, matched.words, *found_.at(j - 1), j - 1)) break;
+    if (!may_end(original, matched.words, *found, j) || (found->move->end_mm - end_mm).norm() > near_mm)
+      break;
+  }
+  return j - first;
+}
+
 // The first moves that end where the original should, after a way that is about as long.
 std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std::size_t others) {
   const Move& original = matched.original;
@@ -96,8 +124,10 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
     if ((!turns_rigidly || found->move->arc) && may_end(original, matched.words, *found, j)) {
       const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
-      // This end is rounded, and the one before, whose shift is expected here: no other end is as near.
-      if (!turns_rigidly && off <= 2 * rounding_mm && surplus <= slack_mm) return j + 1;
+      // This end is rounded, and the one before, whose shift is expected here: no other end is as near, but
+      // for those that are planned within these digits.
+      if (!turns_rigidly && off <= 2 * rounding_mm && surplus <= slack_mm)
+        return j + 1 + count_behind(matched, j + 1, others, end_mm, 2 * rounding_mm);
       // The end of a contour's piece is known up to its turn, its angle to the last digits.
       const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
       if (miss < best_miss - nearer_mm) best = j + 1, best_miss = miss;

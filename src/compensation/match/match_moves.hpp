@@ -28,6 +28,9 @@ struct MatchedMoves {
   }
 };
 
+/// Knots of the plan before the end of a segment, in order.
+std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s);
+
 /// Finds them, move by move. Inserted blocks come before the block that they split, follow its path, and hold
 /// motion, axes and F.
 class MoveFinder {
@@ -41,6 +44,8 @@ class MoveFinder {
 
  private:
   std::size_t count(const MatchedMoves& matched, std::size_t most, std::size_t others);
+  std::size_t count_behind(const MatchedMoves& matched, std::size_t first, std::size_t others,
+                           const Vector3& end_mm, double near_mm);
   Vector3 expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const;
   std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
 

@@ -80,7 +80,8 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
   }
 }
 
-// Knots of the plan before the end of a segment, in order.
+}  // namespace
+
 std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
   const PlannedSegment& planned = plan.segments[s];
   std::vector<Knot> knots;
@@ -89,6 +90,8 @@ std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
   add_borders(job.path.segments[s].wanted, planned, knots);
   return knots;
 }
+
+namespace {
 
 void settle(DraftPiece& draft, double u) {
   draft.piece.u1 = u;

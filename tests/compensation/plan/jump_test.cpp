@@ -47,6 +47,55 @@ TEST_CASE("a modal rapid after a jump has a G0 of its own") {
   CHECK(after[after.size() - 2].motion == Motion::feed);
 }
 
+TEST_CASE("a step of the force may be less than a digit away from the end of a block") {
+  const double block = 0.02, digit = 1e-6;  // m
+  for (const double at : {19.99, 19.999, 19.9994, 19.9998, 19.99995, 20.0, 20.00005, 20.0006, 20.01}) {
+    CAPTURE(at);
+    const Shop shop({.machine = load_machine(orthoglide_b),
+                     .text = "G21 G90\nG0 X0. Y0. Z0.\nG1 X20. F600\nX40.\nM30\n",
+                     .force = step_profile(fmt::format("0, 100, 0, 0\n{}, 200, 60, 0\n", at), 0)});
+    const Compensation result = compensated(shop);
+    // The jump is known to a digit: a piece that begins so near to it begins behind it.
+    std::vector<Commanded> pieces = commanded(shop, result);
+    check_complete(shop, pieces);
+    std::erase_if(pieces, [&](const Commanded& piece) { return (piece.u1 - piece.u0) * block < digit; });
+    for (Commanded& piece : pieces) {
+      const double step = at * mm / block - (shop.path.segments[piece.segment].line == 3 ? 0 : 1);
+      if (std::abs(step - piece.u0) * block < digit) piece.u0 = std::max(step, piece.u0) + 1e-9;
+    }
+    const Miss miss = dense_miss(shop, pieces, 40);
+    CAPTURE(miss.u);
+    CHECK(miss.size <= 5e-6);
+  }
+}
+
+TEST_CASE("a jump less than a digit before the end of a move belongs to it, whatever follows") {
+  const std::string before = "G21 G90 G17\nG0 X0. Y0. Z0.\n";
+  const std::vector<std::pair<std::string, double>> cases{{"G1 X20. F600\nG0 Z20.\nM30\n", 20},
+                                                          {"G1 X20. F600\nM30\n", 20},
+                                                          {"G1 X20. F600\nX20.\nX40.\nM30\n", 20},
+                                                          {"G3 X10. I5. F600\nG1 Y9.\nM30\n", 15.70796},
+                                                          {"G1 X20. F600\nG2 X30. I5.\nM30\n", 20}};
+  for (const auto& [text, end] : cases)
+    for (const double rest : {1e-3, 6e-4, 2e-4, 5e-5}) {
+      CAPTURE(text);
+      CAPTURE(rest);
+      const std::string rows = fmt::format("0, 100, 0, 0\n{:.5f}, 200, 60, 0\n", end - rest);
+      const Shop shop(
+          {.machine = load_machine(orthoglide_b), .text = before + text, .force = step_profile(rows, 0)});
+      CHECK(refusal_of(shop, compensated(shop).text) == "");
+    }
+}
+
+TEST_CASE("a block of one digit behind a jump is a block of its own") {
+  const Shop shop({.machine = load_machine(orthoglide_b),
+                   .text = "G21 G90\nG0 X20. Y0. Z0.\nG1 X20.001 F600\nY20.\nG0 Z20.\nM30\n",
+                   .force = constant_force(milling(), 0)});
+  const Compensation result = compensated(shop);
+  CHECK(jumps_of(shop, result) == 2);
+  CHECK(dense_miss(shop, result, 20).size <= 5e-6);
+}
+
 TEST_CASE("a step of the force inside a segment is performed where it is") {
   for (const double step : {40.0, 2.0, 1.0, 0.5, 0.3, 0.2, 0.1}) {
     CAPTURE(step);
