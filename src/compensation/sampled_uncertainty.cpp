@@ -100,6 +100,8 @@ std::vector<Vector3> drawn_datums(const std::vector<WorkFrame>& frames, const Mo
 /// By place: u'(d - d0) of one sample, where it was solved.
 using SampledPlaces = std::vector<std::optional<double>>;
 
+constexpr double solved_to = 1e-11;  // m: rounding errors of positions
+
 /// Compares all samples with the bands of their places.
 void compare_with_bands(const std::vector<SampledPlaces>& found, const std::vector<Place>& at,
                         SampledBands& bands) {
@@ -113,7 +115,7 @@ void compare_with_bands(const std::vector<SampledPlaces>& found, const std::vect
       sum += *sample[i];
       squares += *sample[i] * *sample[i];
       ++solved;
-      if (std::abs(*sample[i]) <= at[i].band) ++inside;
+      if (std::abs(*sample[i]) <= at[i].band + solved_to) ++inside;
     }
     count += solved;
     if (solved < 2 || at[i].band == 0) continue;

@@ -20,7 +20,7 @@ void leave_out_corrected(Machine& machine) {
   const auto corrects = [&](Corrected what) {
     return std::ranges::find(machine.already_corrects, what) != machine.already_corrects.end();
   };
-  if (corrects(Corrected::gravity)) machine.gravity = {};
+  if (corrects(Corrected::gravity)) machine.gravity.g.setZero();  // preloads still act on the zero at home
   for (Chain& chain : machine.chains)
     for_each_actuator(chain.elements, [&](Actuator& actuator) {
       if (corrects(Corrected::error_tables)) actuator.errors.reset(), actuator.harmonics.clear();

@@ -5,7 +5,8 @@
 namespace counterflex {
 namespace {
 
-constexpr const char *growth_name = "spindle_growth", *shift_name = "thermal_shift";
+// No error of a file has such a name.
+constexpr const char *growth_name = "[thermal] growth", *shift_name = "[thermal] shift";
 
 bool is_thermal(const Element& element) {
   const auto* error = std::get_if<AssemblyError>(&element);
@@ -30,7 +31,8 @@ Machine at_temperature(const Machine& machine, double temperature) {
     for (Chain& chain : result.chains) std::erase_if(chain.elements, is_thermal);
   result.temperature = temperature;
   // All chains move alike, so that closures do not change.
-  const Vector3 growth_P = machine.X_PT.R * Vector3(0, 0, -at.growth);
+  const Matrix3& R_PS = machine.X_PS ? machine.X_PS->R : machine.X_PT.R;
+  const Vector3 growth_P = R_PS * Vector3(0, 0, -at.growth);
   for (std::size_t i = 0; i < result.chains.size(); ++i) {
     std::vector<Element>& elements = result.chains[i].elements;
     const bool ends_with_mass = i == 0 && machine.ends_with_tool_mass;

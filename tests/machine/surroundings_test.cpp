@@ -49,3 +49,29 @@ TEST_CASE("the shift of a machine is linear between the temperatures of its tabl
   // The tip's z is the platform's x: the spindle grows along -x.
   CHECK(std::get<AssemblyError>(elements.back()).X.p.isApprox(Vector3(-20e-6, 0, 0), 1e-9));
 }
+
+TEST_CASE("the spindle grows along its own axis where the file has [spindle]") {
+  const Machine machine = machine_with(
+      "[tool]\nxyz_mm = [0, 0, -80]\n[spindle]\nrpy_deg = [0, 90, 0]\n"
+      "[thermal]\ntemperature_C = [20, 30]\nspindle_um = [0, 40]\n");
+  const Machine warm = at_temperature(machine, 30);
+  CHECK(std::get<AssemblyError>(warm.chains[0].elements.back()).X.p.isApprox(Vector3(-40e-6, 0, 0), 1e-9));
+}
+
+TEST_CASE("a control that corrects weights keeps the zero of home, on which preloads act") {
+  const Machine machine =
+      machine_of(x_axis,
+                 "controlled = [\"x\"]\ngravity_m_s2 = [0, 0, -9.81]\ngravity_reference = \"home\"\n"
+                 "[controller]\nalready_corrects = [\"gravity\"]\n");
+  CHECK(machine.gravity.g.isZero(0));
+  CHECK(machine.gravity.true_at_home);
+}
+
+TEST_CASE("a machine at another temperature keeps its errors, whatever their names are") {
+  Machine machine =
+      machine_with("[thermal]\ntemperature_C = [20, 30]\nx_um = [0, 30]\nspindle_um = [0, 40]\n");
+  for (const char* name : {"thermal_shift", "spindle_growth"})
+    machine.chains[0].elements.push_back(AssemblyError{name, translation({5e-5, 0, 0})});
+  const std::size_t count = machine.chains[0].elements.size();
+  CHECK(at_temperature(at_temperature(machine, 25), 30).chains[0].elements.size() == count + 2);
+}

@@ -153,7 +153,7 @@ void add_samples(Slice& slice, std::size_t t) {
       sampled.segment != nullptr && std::ranges::binary_search(slice.fractions, piece.u1);
   const PieceSample end{.piece = t, .v = 1, .u = piece.u1, .place = ends_at_place};
   if (!slice.questions.inside || piece.end_only) {
-    if (slice.questions.before && sampled.begins_run) add_start(slice, t);
+    if (sampled.begins_run) add_start(slice, t);
     add_sample(slice, end);
     return;
   }

@@ -107,6 +107,13 @@ Order skewed(const std::string& text = pocket) {
 
 }  // namespace
 
+TEST_CASE("with a shift in effect the start of a feed run is a place, as without one") {
+  const std::vector<Waypoint> found =
+      shifted(skewed("G21 G90 G54\nG0 X40 Y60 Z-2\nG1 X0 F600\nM30\n"), moved_by({}));
+  const auto begins = [](const Waypoint& w) { return w.cutting && w.place && w.fraction == 0; };
+  CHECK(std::ranges::count_if(found, begins) == 1);
+}
+
 TEST_CASE("with a shift in effect the tip is where the moved work offset puts it") {
   std::mt19937 random(1);
   std::normal_distribution<double> normal;

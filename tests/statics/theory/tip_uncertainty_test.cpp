@@ -175,6 +175,8 @@ TEST_CASE("a band is along the deviation, or in the most uncertain direction whe
   CHECK(band({0, 0, 0}, C) == doctest::Approx(6));
   CHECK(band({3, 4, 0}, C) == doctest::Approx(2 * std::sqrt((9.0 + 4 * 16) / 25)));
   CHECK(std::abs(band_direction({0, 0, 0}, C).z()) == doctest::Approx(1));
+  // A rounding error in a direction without uncertainty is no deviation.
+  CHECK(std::abs(band_direction({1e-18, 0, 0}, Vector3(0, 4, 9).asDiagonal()).z()) == doctest::Approx(1));
 }
 
 TEST_CASE(
