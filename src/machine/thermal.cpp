@@ -3,17 +3,6 @@
 #include "counterflex/machine/machine.hpp"
 
 namespace counterflex {
-namespace {
-
-// No error of a file has such a name.
-constexpr const char *growth_name = "[thermal] growth", *shift_name = "[thermal] shift";
-
-bool is_thermal(const Element& element) {
-  const auto* error = std::get_if<AssemblyError>(&element);
-  return error != nullptr && (error->name == growth_name || error->name == shift_name);
-}
-
-}  // namespace
 
 ThermalShift thermal_shift(const ThermalTable& table, double temperature) {
   const auto above = std::upper_bound(table.temperatures.begin(), table.temperatures.end(), temperature);
@@ -27,18 +16,21 @@ ThermalShift thermal_shift(const ThermalTable& table, double temperature) {
 Machine at_temperature(const Machine& machine, double temperature) {
   const ThermalShift at = thermal_shift(*machine.thermal, temperature);
   Machine result = machine;
-  if (machine.temperature)
-    for (Chain& chain : result.chains) std::erase_if(chain.elements, is_thermal);
   result.temperature = temperature;
-  // All chains move alike, so that closures do not change.
   const Matrix3& R_PS = machine.X_PS ? machine.X_PS->R : machine.X_PT.R;
-  const Vector3 growth_P = R_PS * Vector3(0, 0, -at.growth);
+  const AssemblyError growth{"spindle_growth", translation(R_PS * Vector3(0, 0, -at.growth))},
+      shift{"thermal_shift", translation(at.shift)};
+  // All chains move alike, so that closures do not change: the shift is first, the growth last, but for the
+  // mass of a tool.
   for (std::size_t i = 0; i < result.chains.size(); ++i) {
     std::vector<Element>& elements = result.chains[i].elements;
-    const bool ends_with_mass = i == 0 && machine.ends_with_tool_mass;
-    elements.insert(elements.end() - (ends_with_mass ? 1 : 0),
-                    AssemblyError{growth_name, translation(growth_P)});
-    elements.insert(elements.begin(), AssemblyError{shift_name, translation(at.shift)});
+    const auto mass = i == 0 && machine.ends_with_tool_mass ? 1 : 0;
+    if (machine.temperature) {
+      elements.erase(elements.end() - mass - 1);
+      elements.erase(elements.begin());
+    }
+    elements.insert(elements.end() - mass, growth);
+    elements.insert(elements.begin(), shift);
   }
   return result;
 }

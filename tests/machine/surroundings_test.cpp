@@ -1,4 +1,6 @@
 // Masses of tools, the fixture and the temperature in machine files.
+#include <algorithm>
+
 #include "counterflex/geometry/types.hpp"
 #include "machine/machine_texts.hpp"
 
@@ -73,5 +75,11 @@ TEST_CASE("a machine at another temperature keeps its errors, whatever their nam
   for (const char* name : {"thermal_shift", "spindle_growth"})
     machine.chains[0].elements.push_back(AssemblyError{name, translation({5e-5, 0, 0})});
   const std::size_t count = machine.chains[0].elements.size();
-  CHECK(at_temperature(at_temperature(machine, 25), 30).chains[0].elements.size() == count + 2);
+  const Machine warm = at_temperature(at_temperature(machine, 25), 30);
+  CHECK(warm.chains[0].elements.size() == count + 2);
+  const auto is_own = [](const Element& element) {
+    const auto* error = std::get_if<AssemblyError>(&element);
+    return error != nullptr && error->X.p.isApprox(Vector3(5e-5, 0, 0), 1e-9);
+  };
+  CHECK(std::ranges::count_if(warm.chains[0].elements, is_own) == 2);
 }

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/statics/fixture.hpp"
+#include "statics/model/tolerances.hpp"
 
 namespace counterflex {
 namespace {
@@ -67,11 +68,10 @@ double band(const Vector3& d, const Matrix3& C) {
   return 2 * std::sqrt(std::max(u.dot(C * u), 0.0));
 }
 
-constexpr double least_deviation = 1e-11;  // m: below this it is the rounding error of solutions
-
 Vector3 band_direction(const Vector3& d, const Matrix3& C) {
   const double size = d.norm();
-  if (size > least_deviation && size * size > 2 * std::sqrt(std::max(d.dot(C * d), 0.0))) return d / size;
+  // A smaller deviation is the rounding error of solutions.
+  if (size > step_tolerance && size * size > 2 * std::sqrt(std::max(d.dot(C * d), 0.0))) return d / size;
   return Eigen::SelfAdjointEigenSolver<Matrix3>(C).eigenvectors().col(2);
 }
 
