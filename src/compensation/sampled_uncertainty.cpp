@@ -83,15 +83,18 @@ std::vector<Place> banded_places(const std::vector<LoadPlace>& places) {
 }
 
 /// By how much the part of each frame is elsewhere because a drawn machine touched it off.
-std::vector<Vector3> drawn_datums(const std::vector<WorkFrame>& frames, const Model& drawn,
+std::vector<Vector3> drawn_datums(const std::vector<WorkFrame>& frames, const Machine& machine,
                                   double repeatability, Normal& normal) {
-  std::vector<Vector3> all;
-  for (const WorkFrame& frame : frames) {
-    Vector3& moved = all.emplace_back(Vector3::Zero());
-    if (!frame.touched) continue;
+  std::vector<Vector3> all(frames.size(), Vector3::Zero());
+  const auto is_touched = [](const WorkFrame& frame) { return frame.touched.has_value(); };
+  if (std::ranges::none_of(frames, is_touched)) return all;
+  const Model drawn = prepare(without_temperature(machine));
+  for (std::size_t i = 0; i < frames.size(); ++i) {
+    const WorkFrame& frame = frames[i];
+    if (!is_touched(frame)) continue;
     const UnloadedDeviation touched = unloaded_deviation({&drawn, frame.touched->p_MT});
     if (touched.status != Status::converged) continue;
-    moved =
+    all[i] =
         frame.touched->axes.asDiagonal() * (touched.d + repeatability * normal.next3()) - frame.datum_shift;
   }
   return all;
@@ -163,7 +166,7 @@ SampledBands sample_bands(const Machine& machine, const std::vector<long>& tools
     PlaceSolver solver(nullptr, !at.empty() && at.front().of->load.at_platform);
     Normal normal(~k);
     const std::vector<Vector3> datums =
-        drawn_datums(frames, model, machine.uncertainty->repeatability, normal);
+        drawn_datums(frames, drawn.machine, machine.uncertainty->repeatability, normal);
     for (const Place& place : at) {
       ForwardRequest request = request_at(*place.of);
       request.model = &model_with(model, &with, place.of->tool);

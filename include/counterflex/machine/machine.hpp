@@ -348,6 +348,9 @@ ThermalShift thermal_shift(const ThermalTable& table, double temperature);
 /// the beginning and the end of its chains, in place of those of the temperature that it had.
 Machine at_temperature(const Machine& machine, double temperature);
 
+/// The machine without its thermal shift, as it is at the zeros of its table.
+Machine without_temperature(const Machine& machine);
+
 /// kg, masses in branches of groups included.
 double total_mass(const Branch& branch);
 double total_mass(const Machine& machine);

@@ -127,6 +127,9 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
     place.assumption = no_table_warning(program);
     return place;
   }
+  std::optional<Model> cold;
+  if (machine.temperature) cold = prepare(without_temperature(machine));
+  const Model& touching = cold ? *cold : model;
   std::map<std::string, WorkFrame> offsets;  // solved once for all frames of an offset
   for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
     if (!program.frames_used[i]) continue;
@@ -134,7 +137,7 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
     const std::string& selected = program.frames[i].work_offset;
     auto offset = offsets.find(selected);
     if (offset == offsets.end())
-      offset = offsets.emplace(selected, place_offset(machine, model, machine_file, selected)).first;
+      offset = offsets.emplace(selected, place_offset(machine, touching, machine_file, selected)).first;
     place.frames[i] = place_frame(offset->second, program.frames[i]);
   }
   place.assumption = start_warning(program);

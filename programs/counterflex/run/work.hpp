@@ -19,8 +19,9 @@ struct WorkPlace {
 };
 
 /// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off
-/// is at the tip of the unloaded machine. Throws `InputError` (ErrorKind::machine_or_force) if the table
-/// lacks an offset, or if the machine does not reach the touched point.
+/// is at the tip of the unloaded machine without its thermal shift. Throws `InputError`
+/// (ErrorKind::machine_or_force) if the table lacks an offset, or if the machine does not reach the touched
+/// point.
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program);
 
