@@ -15,9 +15,12 @@ namespace {
 constexpr double same = 1e-8;    // m: largest deviations that differ by less are the same
 constexpr int most_passes = 12;  // over the program
 constexpr double step = 1e-4;    // m: of a difference quotient
-// A tool is changed only where a work offset does not do the same. 1: shifts of 3 programs of 17 change by up
-// to 3 µm.
-constexpr double tool_weight = 1e3;
+// What a shift as large as the largest deviation costs, in shares of it: it settles shifts on which nothing
+// depends. A tool is changed only where a work offset does not do the same: with the cost of a shift, shifts
+// of 3 programs of 17 change by up to 3 µm.
+constexpr double shift_cost = 0.5e-6, tool_cost = 0.5e-3;
+// What a turn of 1 rad costs, likewise: a turn about the path itself changes little but turns the tool.
+constexpr double turn_cost = 15;
 
 // The variables: of each work offset its shift and, in units of m at its edge, its turn; lengths and radii of
 // tools.
@@ -101,6 +104,8 @@ class Search {
         threads_(threads),
         starts_(starts) {
     add(first);
+    for (std::size_t offset = 0; offset < freedom.offsets; ++offset)
+      unshifted_ = std::max(unshifted_, largest(offset));
   }
 
   BestShift shift() const { return values_of(v_, x_); }
@@ -121,6 +126,7 @@ class Search {
   /// Minimises over the places so far. Line of a place that cannot be solved, or 0.
   int minimise() {
     is_searched_ = true;
+    if (!(unshifted_ > 0)) return 0;
     const std::set<std::size_t> parts(v_.part.begin(), v_.part.end());
     for (const std::size_t part : parts) {
       const auto of_part = [&](std::size_t offset) { return v_.part[offset] == part; };
@@ -218,6 +224,19 @@ class Search {
     }
   }
 
+  // By variable, so that the cost of a change is in m.
+  Eigen::VectorXd costs() const {
+    Eigen::VectorXd costs = Eigen::VectorXd::Constant(v_.count, 2 * tool_cost / unshifted_);
+    for (std::size_t offset = 0; offset < v_.freedom.offsets; ++offset) {
+      const int first = v_.first_of(offset);
+      costs.segment(first, v_.each()).setConstant(2 * shift_cost / unshifted_);
+      if (v_.freedom.turns)
+        costs.segment(first + 3, 3)
+            .setConstant(2 * turn_cost * unshifted_ / (v_.edge[offset] * v_.edge[offset]));
+    }
+    return costs;
+  }
+
   // Over the places of some offsets; with or without the variables of tools. Newton's method on the
   // linearised problem: the deviation is nearly linear.
   template <typename Takes>
@@ -240,15 +259,12 @@ class Search {
         column = found->second;
       }
     }
-    Eigen::VectorXd weight(static_cast<Eigen::Index>(global.size()));
-    const int first_of_tools = v_.each() * static_cast<int>(v_.freedom.offsets);
-    for (std::size_t k = 0; k < global.size(); ++k)
-      weight[static_cast<Eigen::Index>(k)] = global[k] < first_of_tools ? 1 : tool_weight;
+    const Eigen::VectorXd cost = costs()(global);
     for (int s = 0; s < most_steps; ++s) {
       std::vector<MinimaxRow> rows;
       for (const Row& row : some) rows.push_back(row.row);
-      const Eigen::VectorXd dx = least_largest(rows, weight);
-      for (std::size_t k = 0; k < global.size(); ++k) x_[global[k]] += dx[static_cast<Eigen::Index>(k)];
+      const Eigen::VectorXd dx = least_largest(rows, {cost, x_(global)});
+      x_(global) += dx;
       std::vector<Vector3> deviations;
       if (const int line = solve(some, x_, deviations)) return line;
       double expected = 0, largest = 0;
@@ -270,6 +286,7 @@ class Search {
   const StartTables* starts_;
   std::vector<Row> rows_;
   std::set<std::size_t> known_;
+  double unshifted_ = 0;  // m: the largest deviation without a shift
   bool is_searched_ = false;
 };
 

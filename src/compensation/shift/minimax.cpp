@@ -8,9 +8,6 @@
 namespace counterflex {
 namespace {
 
-// What a variable costs against the largest norm: few enough to change it by less than `accuracy`, enough to
-// settle variables on which it does not depend.
-constexpr double cost = 1e-6;
 constexpr double accuracy = 1e-7;  // of the largest norm, in units of the largest |r|
 
 struct Barrier {
@@ -21,16 +18,15 @@ struct Barrier {
 
 // Interior point method. Minimises, over x and t, with z = (x, t),
 //
-//     tau (t + cost/2 x' W x) - sum log(t^2 - |r + J x|^2)
+//     tau (t + (from + x)' C (from + x) / 2) - sum log(t^2 - |r + J x|^2)
 //
 // for increasing tau: the minimum is within 2 m / tau of the least t, m the number of rows.
 class InteriorPoint {
  public:
-  InteriorPoint(std::span<const MinimaxRow> rows, const Eigen::VectorXd& weight)
-      : rows_(rows), weight_(weight) {}
+  InteriorPoint(std::span<const MinimaxRow> rows, const MinimaxCost& cost) : rows_(rows), cost_(cost) {}
 
   Eigen::VectorXd solve() {
-    const Eigen::Index n = weight_.size();
+    const Eigen::Index n = cost_.of.size();
     double largest = 0;
     for (const MinimaxRow& row : rows_) largest = std::max(largest, row.r.norm());
     Eigen::VectorXd z = Eigen::VectorXd::Zero(n + 1);
@@ -59,10 +55,10 @@ class InteriorPoint {
   }
 
   double value(const Eigen::VectorXd& z, double tau) const {
-    const Eigen::Index n = weight_.size();
+    const Eigen::Index n = cost_.of.size();
     const double t = z[n];
     if (!(t > 0)) return HUGE_VAL;
-    double sum = tau * (t + 0.5 * cost * z.head(n).cwiseAbs2().dot(weight_));
+    double sum = tau * (t + 0.5 * (cost_.from + z.head(n)).cwiseAbs2().dot(cost_.of));
     for (const MinimaxRow& row : rows_) {
       const double size = row.at(z).norm();
       if (!(size < t)) return HUGE_VAL;
@@ -72,12 +68,12 @@ class InteriorPoint {
   }
 
   Barrier barrier(const Eigen::VectorXd& z, double tau) const {
-    const Eigen::Index n = weight_.size();
+    const Eigen::Index n = cost_.of.size();
     const double t = z[n];
     Barrier at{value(z, tau), Eigen::VectorXd::Zero(n + 1), Eigen::MatrixXd::Zero(n + 1, n + 1)};
-    at.gradient.head(n) = tau * cost * weight_.cwiseProduct(z.head(n));
+    at.gradient.head(n) = tau * cost_.of.cwiseProduct(cost_.from + z.head(n));
     at.gradient[n] = tau;
-    at.hessian.diagonal().head(n) = tau * cost * weight_;
+    at.hessian.diagonal().head(n) = tau * cost_.of;
     for (const MinimaxRow& row : rows_) {
       const Vector3 v = row.at(z);
       const double size = v.norm(), s = (t - size) * (t + size);
@@ -99,7 +95,7 @@ class InteriorPoint {
   }
 
   std::span<const MinimaxRow> rows_;
-  const Eigen::VectorXd& weight_;
+  const MinimaxCost& cost_;
 };
 
 }  // namespace
@@ -111,14 +107,15 @@ Vector3 MinimaxRow::at(const Eigen::VectorXd& x) const {
 }
 
 // Over a few rows, to which the largest ones of all are added. It ends when all others are smaller.
-Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const Eigen::VectorXd& weight) {
-  const Eigen::Index n = weight.size();
+Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const MinimaxCost& cost) {
+  const Eigen::Index n = cost.of.size();
   Eigen::VectorXd x = Eigen::VectorXd::Zero(n);
   double scale = 0;
   for (const MinimaxRow& row : rows) scale = std::max(scale, row.r.norm());
   if (!(scale > 0) || n == 0) return x;
   std::vector<MinimaxRow> scaled(rows.begin(), rows.end());
   for (MinimaxRow& row : scaled) row.r /= scale;
+  const MinimaxCost scaled_cost{scale * cost.of, cost.from / scale};
   std::vector<bool> is_in(rows.size(), false);
   std::vector<MinimaxRow> active;
   std::vector<std::size_t> order(rows.size());
@@ -142,7 +139,7 @@ Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const Eigen::Vec
       ++added;
     }
     if (added == 0) return scale * x;
-    x = InteriorPoint(active, weight).solve();
+    x = InteriorPoint(active, scaled_cost).solve();
   }
 }
 

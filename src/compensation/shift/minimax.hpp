@@ -19,8 +19,13 @@ struct MinimaxRow {
   Vector3 at(const Eigen::VectorXd& x) const;
 };
 
-/// The x that minimises the largest |r + J x| to within a millionth of the largest |r|; of several the
-/// smallest, `weight` by variable.
-Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const Eigen::VectorXd& weight);
+/// What the variables from + x cost: the sum of of[k] (from + x)[k]^2 / 2.
+struct MinimaxCost {
+  Eigen::VectorXd of, from;
+};
+
+/// The x that minimises the largest |r + J x| and the cost together, to within a millionth of the largest
+/// |r|. All variables need a cost, because places may not depend on some of them.
+Eigen::VectorXd least_largest(std::span<const MinimaxRow> rows, const MinimaxCost& cost);
 
 }  // namespace counterflex

@@ -299,6 +299,19 @@ TEST_CASE("offsets that share no place each get their own least deviation") {
   CHECK(std::abs(rest_of(true) - found_shift(order, one_offset()).best.largest) < 2e-8);
 }
 
+TEST_CASE("a base hardly turns about a straight line, along which this changes little") {
+  Order order{.machine = load_machine(COUNTERFLEX_SOURCE_DIR "/samples/robot-spindle/machine.toml")};
+  order.X_MW = order.machine.work.at("G54").X_MW;
+  order.force = constant_force((Vector6() << 100, 50, -80, 0, 0, 0).finished());
+  for (const char* const way : {"X120", "Y120", "X120 Y90", "Y120\nX2\nY0"}) {
+    CAPTURE(way);
+    order.text = fmt::format("G21 G90 G54\nG0 X0 Y0 Z20\nG0 Z0\nG1 {} F600\nM30\n", way);
+    const Found turned = found_shift(order, one_offset(true));
+    CHECK(rotation_between(turned.best.offsets[0].R, Matrix3::Identity()).norm() < 0.3 * deg);
+    CHECK(largest(turned.rest) <= found_shift(order, one_offset()).best.largest + 1e-8);
+  }
+}
+
 TEST_CASE("neither windows nor threads change the shift") {
   std::string text = "G21 G90 G54\nG0 X0 Y0 Z0\nG1 F600\n";
   for (int i = 1; i < 700; ++i) text += fmt::format("X{} Y{} Z{}\n", (i * 7) % 90, (i * 5) % 41, i % 3);

@@ -17,6 +17,10 @@ MinimaxRow moved_point(const Vector3& p) {
   return row;
 }
 
+MinimaxCost small_cost(Eigen::Index variables) {
+  return {Eigen::VectorXd::Constant(variables, 1e-3), Eigen::VectorXd::Zero(variables)};
+}
+
 double largest(const std::vector<MinimaxRow>& rows, const Eigen::VectorXd& x) {
   double size = 0;
   for (const MinimaxRow& row : rows) size = std::max(size, row.at(x).norm());
@@ -65,7 +69,7 @@ TEST_CASE("the least largest norm of shifted points is the radius of their small
       points.push_back(middle + 1e-4 * Vector3(normal(random), normal(random), normal(random)));
       rows.push_back(moved_point(points.back()));
     }
-    const double found = largest(rows, least_largest(rows, Eigen::Vector3d::Ones()));
+    const double found = largest(rows, least_largest(rows, small_cost(3)));
     CHECK(std::abs(found - smallest_sphere(points)) < 5e-9);
   }
 }
@@ -85,7 +89,7 @@ TEST_CASE("no other values of common variables make the largest norm less") {
         row.J.col(k) = Vector3(normal(random), normal(random), normal(random));
       }
     }
-    const Eigen::VectorXd x = least_largest(rows, Eigen::VectorXd::Ones(n));
+    const Eigen::VectorXd x = least_largest(rows, small_cost(n));
     const double least = largest(rows, x);
     for (int i = 0; i < 2000; ++i) {
       Eigen::VectorXd other(n);
@@ -104,9 +108,9 @@ TEST_CASE(
     row.J << Matrix3::Identity(), Vector3::UnitX();
     row.column = {0, 1, 2, 4};
   }
-  Eigen::VectorXd weight = Eigen::VectorXd::Ones(5);
-  weight[4] = 1e3;
-  const Eigen::VectorXd x = least_largest(rows, weight);
+  MinimaxCost cost = small_cost(5);
+  cost.of[4] *= 1e3;
+  const Eigen::VectorXd x = least_largest(rows, cost);
   CHECK(std::abs(x[0] + 2e-4) < 1e-6);
   CHECK(std::abs(x[4]) < 1e-6);
   CHECK(std::abs(x[3]) < 1e-12);
@@ -115,5 +119,5 @@ TEST_CASE(
 
 TEST_CASE("nothing is moved where nothing deviates") {
   const std::vector<MinimaxRow> rows{moved_point(Vector3::Zero())};
-  CHECK(least_largest(rows, Eigen::Vector3d::Ones()).isZero(0));
+  CHECK(least_largest(rows, small_cost(3)).isZero(0));
 }
