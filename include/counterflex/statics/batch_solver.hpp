@@ -116,8 +116,8 @@ class BatchSolver {
   /// is not solved is not `converged`.
   void nominals(std::span<const TurnedPlace> places, std::span<NominalResult> answers);
 
-  /// Bounds from the second-order expansion of the cell in the middle of the line, and its measured
-  /// remainder. EQUATIONS.md, section 11.
+  /// Bounds from the second-order expansions of the line's cell, or of two that share a face, and their
+  /// measured remainders. EQUATIONS.md, section 11.
   LineBend bend_along(const BatchLine& line);
 
   /// The nominal configuration at the centre of the cell that holds the place; null if no cell can be made.

@@ -17,6 +17,13 @@ void append(const Eigen::Matrix<double, n, 1>& v, std::vector<double>& numbers) 
   numbers.insert(numbers.end(), v.begin(), v.end());
 }
 
+/// Whether a line from one cell to the other is inside the two.
+bool share_a_face(const CellIndex& a, const CellIndex& b) {
+  long steps = 0;
+  for (std::size_t i = 0; i < 3; ++i) steps += std::abs(a.position[i] - b.position[i]);
+  return steps <= 1;
+}
+
 }  // namespace
 
 StartTable::StartTable(const Model& model, bool at_platform)
@@ -63,11 +70,10 @@ struct BatchSolver::Impl {
   }
 
   /// The cell of the whole machine; null if it has no cell.
-  const kernel::StartCell* target_at(const Vector3& p) {
-    const auto index = table.is_able ? table.index_of(p, Vector3::Zero()) : std::nullopt;
-    if (index != line_index) line_cell = index ? table.target(*index, {}) : nullptr;
+  std::shared_ptr<const kernel::StartCell> target_at(const CellIndex& index) {
+    if (index != line_index) line_cell = table.target(index, {});
     line_index = index;
-    return line_cell.get();
+    return line_cell;
   }
 
   Matrix3 orientation_of(const TurnedPlace& place) const {
@@ -177,24 +183,30 @@ void BatchSolver::nominal_tips(std::span<const TurnedPlace> places, std::span<No
 }
 
 LineBend BatchSolver::bend_along(const BatchLine& line) {
-  constexpr double infinity = std::numeric_limits<double>::infinity();
-  const kernel::StartCell* cell = impl_->target_at((line.p0 + line.p1) / 2);
-  // The expansion of a cell misses the bends of error tables inside it.
-  // They miss the knees of joints, too.
-  if (cell == nullptr || !impl_->table.flat.machine.motions.empty() || impl_->table.flat.machine.has_knees)
-    return {infinity, infinity};
-  const Vector3 centre(cell->centre[0], cell->centre[1], cell->centre[2]);
-  for (const Vector3& p : {line.p0, line.p1})
-    if (!((p - centre).cwiseAbs().maxCoeff() <= cell->bounds.half_edge)) return {infinity, infinity};
-  const double length = impl_->table.flat.machine.length;
+  constexpr LineBend unknown{std::numeric_limits<double>::infinity(),
+                             std::numeric_limits<double>::infinity()};
+  StartTable::Impl& table = impl_->table;
+  // The expansion of a cell misses the bends of error tables inside it, and the knees of joints.
+  if (!table.is_able || !table.flat.machine.motions.empty() || table.flat.machine.has_knees) return unknown;
+  const auto begin = table.index_of(line.p0), end = table.index_of(line.p1);
+  if (!begin || !end || !share_a_face(*begin, *end)) return unknown;
+  const double length = table.flat.machine.length;
   const auto size = [length](const Vector6& F) {
     return std::sqrt(F.head<3>().squaredNorm() + F.tail<3>().squaredNorm() / (length * length));
   };
-  kernel::LineSizes sizes{.way = (line.p1 - line.p0).norm(), .load_change = size(line.F1 - line.F0)};
+  kernel::LineSizes sizes{.way = (line.p1 - line.p0).norm(),
+                          .load_change = size(line.F1 - line.F0),
+                          .crosses = !(*begin == *end)};
   for (const Vector6& dF : line.dF) sizes.kink = std::max(sizes.kink, size(dF));
   sizes.load = std::max(size(line.F0), size(line.F1)) + sizes.kink;
-  const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
-  return {bounds.command, bounds.gain};
+  LineBend bend{0, 0};
+  for (const CellIndex& index : {*begin, *end}) {
+    const auto cell = impl_->target_at(index);
+    if (!cell) return unknown;
+    const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
+    bend = {std::max(bend.command, bounds.command), std::max(bend.gain, bounds.gain)};
+  }
+  return bend;
 }
 
 void BatchSolver::nominals(std::span<const TurnedPlace> places, std::span<NominalResult> answers) {

@@ -1,4 +1,5 @@
 /// Short lines: what happens between their ends is within the bounds of their cell.
+#include "statics/kernel/cells/offset_bounds.hpp"
 #include "statics/support/batch_support.hpp"
 
 using namespace counterflex;
@@ -11,13 +12,19 @@ struct LoadedLine {
   Vector6 kink;  ///< of the load, in the middle
 };
 
-/// Lines up to an eighth of a cell, with loads that change along them.
-LoadedLine some_line(const BatchBench& bench, const Trial& trial, Random& random) {
+/// Lines up to an eighth of a cell, with loads that change along them. `crosses`: half of it is in another
+/// cell, which shares a face.
+LoadedLine some_line(const BatchBench& bench, const Trial& trial, bool crosses, Random& random) {
   const double edge = bench.model.mechanism.length / 24;
-  const Vector3 p = bench.home().p + trial.centre + random.vector(0.8 * trial.reach);
+  Vector3 p = bench.home().p + trial.centre + random.vector(0.8 * trial.reach);
+  Vector3 way = random.vector(0.07 * edge);
+  if (crosses) {
+    p = edge * ((p / edge).array().floor() + 0.5);
+    p.x() += edge / 2 - way.x() / 2;
+  }
   const auto load = [&](double share) { return random.six(share * trial.force, share * trial.moment); };
   const Vector6 F = load(1);
-  return {{p, F}, {p + random.vector(0.07 * edge), F + load(0.1)}, load(0.02)};
+  return {{p, F}, {p + way, F + load(0.1)}, load(0.02)};
 }
 
 /// Places between the ends, where the load is even but for a kink in the middle.
@@ -48,7 +55,7 @@ TEST_CASE(
     BatchBench bench(batch_trial.machine, batch_trial.at_platform);
     Random random(31);
     for (int i = 0; i < 12; ++i, ++asked) {
-      const LoadedLine line = some_line(bench, batch_trial.trial, random);
+      const LoadedLine line = some_line(bench, batch_trial.trial, i % 2 == 0, random);
       const LineBend bend = bench.solver.bend_along(
           {line.begin.at.p, line.end.at.p, line.begin.F, line.end.F, {&line.kink, 1}});
       if (!std::isfinite(bend.command)) continue;
@@ -90,7 +97,7 @@ TEST_CASE("batches: a short line of a cut needs no solution inside") {
   CHECK(bend.gain < 1.2);
 }
 
-TEST_CASE("batches: nothing is promised of a line that leaves a cell, or has none") {
+TEST_CASE("batches: nothing is promised of a line that goes beyond the neighbouring cell, or has none") {
   BatchBench bench(machine_of("orthoglide_case_b"));
   const Vector3 p = bench.home().p, far(0.9, 0, 0);
   const auto bend = [&](const Vector3& a, const Vector3& b) {
@@ -101,4 +108,12 @@ TEST_CASE("batches: nothing is promised of a line that leaves a cell, or has non
   CHECK(std::isinf(bend(far, far)));
   const double nan = std::numeric_limits<double>::quiet_NaN();
   CHECK(std::isinf(bend(Vector3(nan, 0, 0), p)));
+}
+
+TEST_CASE("batches: nothing is promised of a cell whose remainder is not known") {
+  kernel::OffsetBounds bounds;
+  bounds.half_edge = 1e-3, bounds.load = 250;
+  CHECK(chord_bounds(bounds, {.way = 1e-4}).command == 0);
+  bounds.remainder.fill(std::numeric_limits<double>::infinity());
+  CHECK(std::isinf(chord_bounds(bounds, {.way = 1e-4}).command));
 }

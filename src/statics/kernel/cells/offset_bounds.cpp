@@ -83,6 +83,7 @@ OffsetBounds offset_bounds(const StartCell& cell, double half_edge, double load,
 //     |o(u) - (1 - u) o(0) - u o(1)| <= |D2 o| |step|^2 / 8 + |D_F o| kink + what the remainder bends
 ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   constexpr double infinity = std::numeric_limits<double>::infinity();
+  if (bounds.remainder[0] == infinity) return {infinity, infinity};
   const double excess = std::max(1.0, line.load / bounds.load);
   // The first derivatives anywhere in the cell, under the load.
   const auto first = [&](int r, int v) {
@@ -95,10 +96,10 @@ ChordBounds chord_bounds(const OffsetBounds& bounds, const LineSizes& line) {
   const std::array<double, 3> step{
       line.way, (first(1, position) * line.way + first(1, load) * line.load_change) / turn_follows,
       line.load_change};
-  // A polynomial of fourth order that is at most 1 over a half edge bends by at most 80 (Markov); it is never
-  // further than 2 off its chord.
+  // A polynomial of fourth order that is at most 1 over a half edge bends by at most 80 (Markov); in one cell
+  // it is never further than 2 off its chord.
   const double share = line.way / bounds.half_edge + (line.load_change + line.kink) / bounds.load;
-  const double missed = std::pow(excess, 3) * std::min(2.0, 10 * share * share);
+  const double missed = std::pow(excess, 3) * std::min(line.crosses ? infinity : 2.0, 10 * share * share);
   std::array<double, 2> off{};
   for (int r = 0; r < 2; ++r) {
     double curved = 0;

@@ -15,6 +15,7 @@ struct LineSizes {
   double load_change = 0;  ///< between its ends (N)
   double kink = 0;         ///< largest difference of the load from an even change (N)
   double load = 0;         ///< largest load (N)
+  bool crosses = false;    ///< a part of the line is in another cell, whose bounds are used, too
 };
 
 /// By how much the command is off its chord while the tip goes straight (m), and the gain of the tip (m/m).
