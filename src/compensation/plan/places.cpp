@@ -27,10 +27,17 @@ BoxedOptional<Turn> turn_between(const Segment& segment, double u0, double u1) {
   return stretch(*segment.turn, u0, u1);
 }
 
+bool reverses_inside(const Job& job, const ForceChord& stretch) {
+  if (job.directions == nullptr) return false;
+  const auto is_inside = [&](double u) { return u > stretch.u0 && u < stretch.u1; };
+  return std::ranges::any_of(job.directions->inside(job.path.segments[stretch.segment].move), is_inside);
+}
+
 // The pieces of a segment end at its places, or at its end alone.
 std::vector<Piece> pieces_of(const Job& job, bool at_places) {
   std::vector<Piece> pieces;
-  std::vector<double> ends{1};
+  PlaceSolver solver(job);
+  SegmentPlaces places{{1}};
   ForceCursor cursor;
   std::size_t next_move = 0;
   const auto add_ends_before = [&](std::size_t end) {
@@ -43,9 +50,9 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
     const Segment& segment = job.path.segments[s];
     add_ends_before(segment.move);
     const Pose back{Matrix3::Identity(), -job.path.frames[segment.frame].datum_shift};
-    if (at_places) places_along(job, s, cursor, ends);
+    if (at_places) places_along(job, solver, s, cursor, places);
     double u0 = 0;
-    for (const double u : ends) {
+    for (const double u : places.fractions) {
       pieces.push_back({.segment = s,
                         .move = segment.move,
                         .line = segment.line,
@@ -94,17 +101,6 @@ void fractions_inside(const Job& job, std::size_t index, int steps, ForceCursor&
   fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
 }
 
-void places_along(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& fractions) {
-  const Segment& segment = job.path.segments[index];
-  fractions.clear();
-  if (segment.cutting) {
-    fractions_inside(job, index, steps_along(job, segment), cursor, fractions);
-    const auto same = [](double a, double b) { return b - a < same_fraction; };
-    fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
-  }
-  fractions.push_back(1);
-}
-
 std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                                  ForceCursor& cursor) {
   std::vector<Vector6> bends;
@@ -117,6 +113,42 @@ std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std:
   for (int k = 1; k < eighths && !job.forces.is_linear_between_breaks(); ++k)
     add(stretch.u0 + static_cast<double>(k) / eighths * (stretch.u1 - stretch.u0));
   return bends;
+}
+
+LineBend bend_of(const Job& job, PlaceSolver& solver, const ForceChord& stretch,
+                 std::span<const double> corners, ForceCursor& cursor) {
+  const Segment& segment = job.path.segments[stretch.segment];
+  const bool steps = job.options.blend == 0 && !corners.empty();
+  if (segment.wanted.arc || segment.turn || steps || reverses_inside(job, stretch))
+    return {HUGE_VAL, HUGE_VAL};
+  const std::vector<Vector6> dF = force_bends(job, stretch, corners, cursor);
+  return solver.bend_along(model_of(job, segment),
+                           {point_at(segment.wanted, stretch.u0), point_at(segment.wanted, stretch.u1),
+                            stretch.F0, stretch.F1, dF});
+}
+
+void places_along(const Job& job, PlaceSolver& solver, std::size_t index, ForceCursor& cursor,
+                  SegmentPlaces& places) {
+  const Segment& segment = job.path.segments[index];
+  std::vector<double>& fractions = places.fractions;
+  fractions.clear();
+  places.bend.reset();
+  if (segment.cutting) {
+    const int steps = steps_along(job, segment);
+    fractions_inside(job, index, steps, cursor, fractions);
+    const auto same = [](double a, double b) { return b - a < same_fraction; };
+    fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+    if (steps == 1 && !fractions.empty()) {
+      const ForceChord whole{index, 0, 1, job.forces.at(index, 0, Side::after, cursor),
+                             job.forces.at(index, 1, Side::before, cursor)};
+      const LineBend bend = bend_of(job, solver, whole, fractions, cursor);
+      if (bend.gain * bend.command <= small_share * job.options.tolerance) {
+        places.bend = bend.gain * bend.command;
+        fractions.clear();
+      }
+    }
+  }
+  fractions.push_back(1);
 }
 
 std::vector<Piece> original_pieces(const Job& job) {

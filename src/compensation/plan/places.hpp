@@ -1,8 +1,10 @@
 #pragma once
 /// Places of the original path. They do not depend on how a text divides it.
+#include <optional>
 #include <span>
 #include <vector>
 
+#include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/options.hpp"
 
 namespace counterflex {
@@ -30,12 +32,6 @@ int steps_along(const Job& job, const Segment& segment);
 void fractions_inside(const Job& job, std::size_t segment, int steps, ForceCursor& cursor,
                       std::vector<double>& fractions);
 
-/// Sets `fractions` to the places of a segment, increasing, the last one 1. A rapid has no other place. A
-/// feed move has places at the corners of the force, where joints reverse, and in equal steps of at most 5 mm
-/// (a 64th of a longer move), of at most one position of the tables of errors of motion and, around an arc,
-/// of at most 22.5 degrees: an arc of many turns has 16 places or more on each of them.
-void places_along(const Job& job, std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions);
-
 /// A part of a segment between two fractions, and the forces at its ends, between which it may change evenly.
 struct ForceChord {
   std::size_t segment = 0;
@@ -47,5 +43,26 @@ struct ForceChord {
 /// of the segment, inside the stretch) and, where it may curve between them, at its eighths.
 std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                                  ForceCursor& cursor);
+
+/// How much a line may bend in such a part, where the force has corners inside of it: as
+/// `PlaceSolver::bend_along`. Infinite around an arc, where the tool turns, and where the force steps or a
+/// joint reverses inside of it.
+LineBend bend_of(const Job& job, PlaceSolver& solver, const ForceChord& stretch,
+                 std::span<const double> corners, ForceCursor& cursor);
+
+/// The places of a segment.
+struct SegmentPlaces {
+  std::vector<double> fractions{};  ///< increasing, the last one 1
+  /// Where corners of the force are left out: by how much the tip bends between the ends of the segment, at
+  /// most, while its command goes straight (m). Between places inside of it: twice as much.
+  std::optional<double> bend{};
+};
+
+/// A rapid has its end as its only place. A feed move has places at the corners of the force, where joints
+/// reverse, and in equal steps of at most 5 mm (a 64th of a longer move), of at most one position of the
+/// tables of errors of motion and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places
+/// or more on each of them. A line of one step has no places at corners where its bend is small.
+void places_along(const Job& job, PlaceSolver& solver, std::size_t segment, ForceCursor& cursor,
+                  SegmentPlaces& places);
 
 }  // namespace counterflex

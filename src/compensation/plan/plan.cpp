@@ -47,17 +47,12 @@ void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::ve
   fractions_inside(job, index, std::max(waves, steps_of_tables(job, segment)), cursor, limits);
 }
 
-// Whether the bound of its cell lets a line go straight between its ends. A step of the force divides it.
+// Whether the bound of its cell lets a line go straight between its ends.
 bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
-  const Segment& segment = job.path.segments[task.segment];
-  if (segment.wanted.arc || segment.turn || (job.options.blend == 0 && !task.limits.empty())) return false;
-  const bool reverses = job.directions != nullptr && !job.directions->inside(segment.move).empty();
-  if (reverses || task.fade.acts()) return false;
+  if (task.fade.acts()) return false;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
-  const std::vector<Vector6> dF = force_bends(job, along, task.limits, corrections.cursor());
-  const LineBend bend = corrections.solver().bend_along(
-      model_of(job, segment), {segment.wanted.start, segment.wanted.end, along.F0, along.F1, dF});
-  return bend.command <= bend_share * room_for_knots(job, segment);
+  const LineBend bend = bend_of(job, corrections.solver(), along, task.limits, corrections.cursor());
+  return bend.command <= bend_share * room_for_knots(job, job.path.segments[task.segment]);
 }
 
 void ask_group(Requests& requests, PlanTask& task, bool cutting) {

@@ -28,8 +28,8 @@ struct Slice : PieceSamples {
   const Vector3 judged;  // axes of M
   ForceCursor cursor{};
   std::vector<Stretch> stretches{};
-  std::vector<double> fractions{};  // places of the segment `fractions_of`
-  std::size_t fractions_of = no_segment;
+  SegmentPlaces places_inside{};  // of the segment `places_of`
+  std::size_t places_of = no_segment;
   std::size_t end = no_sample;  // pieces from this one on have no valid answers: it fails
 
   Slice(const Job& of, const Questions& asked, PlaceSolver& by)
@@ -131,12 +131,10 @@ std::size_t add_behind_step(Slice& slice, std::size_t before) {
 double bend_between(Slice& slice, std::size_t start, double u0, const PieceSample& end,
                     const Vector6& F_end) {
   const SampledPiece& sampled = slice.pieces[end.piece];
-  if (sampled.segment->wanted.arc || sampled.piece->commanded.arc || sampled.segment->turn) return HUGE_VAL;
+  if (sampled.piece->commanded.arc) return HUGE_VAL;
+  if (const auto& bend = slice.places_inside.bend) return 2 * *bend;
   const ForceChord along{sampled.piece->segment, u0, end.u, slice.requests[start].F, F_end};
-  const std::vector<Vector6> dF = force_bends(slice.job, along, {}, slice.cursor);
-  const LineBend bend = slice.solver.bend_along(
-      *sampled.model,
-      {slice.places[start].p_MT, point_at(sampled.segment->wanted, end.u), along.F0, along.F1, dF});
+  const LineBend bend = bend_of(slice.job, slice.solver, along, {}, slice.cursor);
   return bend.gain * bend.command;
 }
 
@@ -145,12 +143,12 @@ double bend_between(Slice& slice, std::size_t start, double u0, const PieceSampl
 void add_samples(Slice& slice, std::size_t t) {
   const SampledPiece sampled = slice.pieces[t];
   const Piece& piece = *sampled.piece;
-  if (sampled.segment != nullptr && slice.fractions_of != piece.segment) {
-    places_along(slice.job, piece.segment, slice.cursor, slice.fractions);
-    slice.fractions_of = piece.segment;
+  const std::vector<double>& fractions = slice.places_inside.fractions;
+  if (sampled.segment != nullptr && slice.places_of != piece.segment) {
+    places_along(slice.job, slice.solver, piece.segment, slice.cursor, slice.places_inside);
+    slice.places_of = piece.segment;
   }
-  const bool ends_at_place =
-      sampled.segment != nullptr && std::ranges::binary_search(slice.fractions, piece.u1);
+  const bool ends_at_place = sampled.segment != nullptr && std::ranges::binary_search(fractions, piece.u1);
   const PieceSample end{.piece = t, .v = 1, .u = piece.u1, .place = ends_at_place};
   if (!slice.questions.inside || piece.end_only) {
     if (sampled.begins_run) add_start(slice, t);
@@ -159,7 +157,7 @@ void add_samples(Slice& slice, std::size_t t) {
   }
   const double span = piece.u1 - piece.u0;
   Stretch stretch{t, 0, 0, add_start(slice, t)};
-  auto next = std::ranges::upper_bound(slice.fractions, piece.u0);
+  auto next = std::ranges::upper_bound(fractions, piece.u0);
   for (bool last = false; !last; ++next) {
     last = *next >= piece.u1;
     stretch.v1 = last ? 1 : (*next - piece.u0) / span;

@@ -161,6 +161,36 @@ TEST_CASE(
   CHECK(inside(miss_of_ends(0.85 * tolerance)) >= 40);
 }
 
+TEST_CASE("a short line has places at corners of the force only where it may bend there") {
+  // Line 11 has a ramp up and one down, of 0.2 mm each.
+  const auto shop_of = [](double step) {
+    return Shop(
+        {.machine = yielding_gantry(),
+         .text = blocks(12, 1),
+         .force = step_profile(fmt::format("0,10,0,0\n8.3,{},0,0\n8.7,10,0,0\n", 10 + step), 0.2e-3)});
+  };
+  const auto places_in = [](const Shop& shop) {
+    const auto is_there = [](const Piece& piece) { return piece.line == 11; };
+    return std::ranges::count_if(original_pieces(shop.job()), is_there);
+  };
+  CHECK(places_in(shop_of(60)) == 5);
+  const Shop shop = shop_of(2);
+  CHECK(places_in(shop) == 1);
+  const auto segment = static_cast<std::size_t>(std::ranges::find(shop.path.segments, 11, &Segment::line) -
+                                                shop.path.segments.begin());
+  const auto deviation_at = [&](double u) {
+    const Vector3 p = point_at(shop.path.segments[segment].wanted, u);
+    return Vector3(cold_tip(shop, p, shop.forces->at(segment, u, Side::before)) - p);
+  };
+  double most = 0;
+  for (int k = 0; k <= 100; ++k) {
+    const double u = 0.01 * k;
+    most = std::max(most, (deviation_at(u) - (1 - u) * deviation_at(0) - u * deviation_at(1)).norm());
+  }
+  CHECK(most > 0.1e-6);  // the force bends
+  CHECK(most <= 0.1 * shop.options.tolerance);
+}
+
 TEST_CASE("a wave of the deviation on an arc is found") {
   const Shop shop({.machine = load_machine(orthoglide_b),
                    .text = "G21 G90 G17\nG0 X60 Y0 Z0\nG2 X60 Y0 I-60 J0 F600\nM30\n",
