@@ -27,6 +27,11 @@ double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
   return (angle + turn * std::round((expected - angle) / turn)) / arc.arc->sweep;
 }
 
+// By how much words may round the places of a move (m).
+double rounding_of(const Job& job, const Move& move) {
+  return roundings * rounding_allowance(move, job.options.write);
+}
+
 constexpr double not_known = -1;  // a fraction
 
 // The pieces of matched moves. The fraction at the end of the last one alone is known.
@@ -135,8 +140,23 @@ void find_knots(std::span<const Knot> knots, double tolerance, std::vector<Draft
   }
 }
 
-// The correction changes evenly enough from one end of the segment to the other for a first guess.
-void project(const Curve& wanted, std::vector<DraftPiece>& drafts) {
+// Targets at the corners of the force along an arc.
+std::vector<Knot> corner_knots(const Job& job, const Plan& plan, std::size_t s) {
+  std::vector<Knot> knots;
+  const Curve& wanted = job.path.segments[s].wanted;
+  if (!wanted.arc) return knots;
+  for (const double u : job.forces.breaks(s))
+    for (const CorrectionCurve& curve : plan.segments[s].arc)
+      if (curve.begin() < u && u < curve.end())
+        knots.push_back({{point_at(wanted, u) + shift_of(curve.at(u))}, u});
+  return knots;
+}
+
+// The correction changes evenly enough from one end of the segment to the other for a first guess. But along
+// a ramp of the force that is shorter than what it deflects the tip along the feed: where its end rounds to
+// an end of a move, within `rounding` (m), this is it.
+void project(const Curve& wanted, std::span<const Knot> corners, double rounding,
+             std::vector<DraftPiece>& drafts) {
   const Vector3 c0 = drafts.front().piece.commanded.start - wanted.start,
                 c1 = drafts.back().piece.commanded.end - wanted.end;
   double last = 0;  // fraction
@@ -156,6 +176,10 @@ void project(const Curve& wanted, std::vector<DraftPiece>& drafts) {
         u = wanted.arc ? fraction_on_arc(wanted, p, expected) : fraction_on_line(wanted, p);
       }
       draft.piece.u1 = std::clamp(u, last, inner_end);
+      for (const Knot& corner : corners)
+        if (corner.u > last && std::abs(corner.u - u) * wanted.arc->sweep < std::numbers::pi &&
+            (way.end - corner.target).norm() <= rounding)
+          settle(draft, corner.u);
     }
     last = draft.piece.u1;
   }
@@ -168,7 +192,9 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
   std::vector<DraftPiece> drafts = drafts_of(job, matched);
   if (drafts.size() > 1) {
     find_knots(inner_knots(job, plan, *matched.segment), job.options.tolerance, drafts);
-    project(job.path.segments[*matched.segment].wanted, drafts);
+    const std::size_t s = *matched.segment;
+    project(job.path.segments[s].wanted, corner_knots(job, plan, s), rounding_of(job, matched.original),
+            drafts);
   }
   for (DraftPiece& draft : drafts) pieces.push_back(std::move(draft));
 }
@@ -226,7 +252,7 @@ bool is_jump(const Job& job, const Piece& piece) {
   if (piece.u0 > 0 || piece.u1 == 1) return false;
   const Move& move = job.program.moves[job.path.segments[piece.segment].move];
   const double way = (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
-  return way < roundings * rounding_allowance(move, job.options.write);
+  return way < rounding_of(job, move);
 }
 
 }  // namespace

@@ -49,6 +49,16 @@ TEST_CASE("a perfect machine gives back programs with arcs byte for byte") {
   }
 }
 
+TEST_CASE("a ramp of the force may be shorter than what it deflects the tip along an arc") {
+  for (const double blend : {0.01 * mm, 0.015 * mm}) {
+    CAPTURE(blend);
+    const Shop shop({.machine = yielding_gantry(),
+                     .text = "G21 G90 G17\nG0 X0 Y0 Z0\nG3 X10 I5 F500\nG0 Z5\nM30\n",
+                     .force = constant_force((Vector6() << 0, -200, 0, 0, 0, 0).finished(), blend)});
+    CHECK(dense_miss(shop, compensated(shop), 7).size <= shop.options.tolerance);
+  }
+}
+
 TEST_CASE("a constant shift leaves arcs arcs, with the same I, J, K and R") {
   const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = arcs}));
   const std::vector<Move> before = arcs_in(arcs), after = arcs_in(result.text);

@@ -49,15 +49,6 @@ double dense(const Shop& shop, const std::vector<Piece>& pieces, int inside) {
   return dense_miss(shop, all, inside).size;
 }
 
-/// A head that deflects evenly, 10 µm under 100 N.
-Machine yielding_gantry() {
-  Machine machine = perfect_gantry();
-  Spring spring;
-  spring.K.diagonal() << 1e7, 1e7, 1e7, 1e6, 1e6, 1e6;
-  machine.chains[0].elements.push_back(spring);
-  return machine;
-}
-
 /// Along X in blocks of `block_mm` from 0 on.
 std::string blocks(int count, double block_mm) {
   std::string text = "G21 G90\nG0 X-1 Y0 Z0\nG1 X0 F600\n";
