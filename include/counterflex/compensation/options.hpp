@@ -218,7 +218,8 @@ struct ForwardRun {
 /// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)
 /// and 22.5 degrees of an arc, on all of its turns. They do not depend on the pieces. `before` and its causes
 /// count there: all runs over one program with one tolerance agree on them. Corners of a line of one step are
-/// no places where the bound of its cells, with the corners, is within a tenth of the tolerance.
+/// no places where the bound of its cells, with the corners, is within a tenth of the tolerance and the force
+/// is not larger than at its ends.
 ///
 /// A feed piece is sampled at the places inside it. Between neighbouring places of a line the deviation is at
 /// most that at the larger of both, and what the tip bends by the bound of its cell. If that is within 0.8 of

@@ -152,20 +152,22 @@ TEST_CASE(
   CHECK(inside(miss_of_ends(0.85 * tolerance)) >= 40);
 }
 
-TEST_CASE("a short line has places at corners of the force only where it may bend there") {
-  // Line 11 has a ramp up and one down, of 0.2 mm each.
-  const auto shop_of = [](double step) {
-    return Shop(
-        {.machine = yielding_gantry(),
-         .text = blocks(12, 1),
-         .force = step_profile(fmt::format("0,10,0,0\n8.3,{},0,0\n8.7,10,0,0\n", 10 + step), 0.2e-3)});
+TEST_CASE(
+    "a short line has places at corners of the force only where it may bend there, or the force is largest "
+    "there") {
+  // Line 11 has a step of the force and one back, as ramps of 0.2 mm.
+  const auto shop_of = [](double step, const Machine& machine = yielding_gantry()) {
+    const std::string rows = fmt::format("0,100,0,0\n8.3,{},0,0\n8.7,100,0,0\n", 100 + step);
+    return Shop({.machine = machine, .text = blocks(12, 1), .force = step_profile(rows, 0.2e-3)});
   };
   const auto places_in = [](const Shop& shop) {
     const auto is_there = [](const Piece& piece) { return piece.line == 11; };
     return std::ranges::count_if(original_pieces(shop.job()), is_there);
   };
-  CHECK(places_in(shop_of(60)) == 5);
-  const Shop shop = shop_of(2);
+  CHECK(places_in(shop_of(-60)) == 5);
+  CHECK(places_in(shop_of(2)) == 5);  // a larger force acts inside
+  CHECK(places_in(shop_of(300, perfect_gantry())) == 5);
+  const Shop shop = shop_of(-2);
   CHECK(places_in(shop) == 1);
   const auto segment = static_cast<std::size_t>(std::ranges::find(shop.path.segments, 11, &Segment::line) -
                                                 shop.path.segments.begin());
