@@ -204,6 +204,7 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
     const auto cell = impl_->target_at(index);
     if (!cell) return unknown;
     const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
+    if (!std::isfinite(bounds.command) || !std::isfinite(bounds.gain)) return unknown;
     bend = {std::max(bend.command, bounds.command), std::max(bend.gain, bounds.gain)};
   }
   return bend;
