@@ -39,14 +39,14 @@ MainFlow read_main_flow(const ProgramText& program) {
                      text.find("Goto") != std::string_view::npos;
   Block block;
   Structures structures;
-  bool has_text = false, ended = false;
+  bool opened = false, has_words = false, ended = false;
   while (next_line(text, block)) {
     if (!ended)
       lex(text, file, dialect, block);
     else if (!lexes(text, file, dialect, block))
       break;
     const bool other_program = dialect.macro_words && is_program_number(block);
-    if ((has_text && block.percent) || (ended && other_program)) break;
+    if (((opened || has_words) && block.percent) || (ended && other_program)) break;
     if (const auto definition = definition_at(program, block)) {
       if (!structures.open.empty())
         throw UnknownFlow{block.line, "a subprogram is defined in a condition or a loop"};
@@ -54,8 +54,9 @@ MainFlow read_main_flow(const ProgramText& program) {
       main.end = definition->after.at;
       continue;
     }
-    if (has_text && other_program) break;
-    has_text = has_text || block.percent || !block.words.empty();
+    if (has_words && other_program) break;
+    opened = opened || block.percent;
+    has_words = has_words || !block.words.empty();
     add_flow(text, dialect, block, jumps, main.flow);
     follow_structures(text, dialect, block, structures);
     main.end = block.line_end.end;

@@ -97,8 +97,10 @@ class Expander {
         block = before(definition->after);
         continue;
       }
-      if (main.any && block.span.begin >= main.end)
-        throw UnknownFlow{block.line, "the program continues into another program"};
+      if (follows_ && block.span.begin >= main.end) {
+        if (main.any) throw UnknownFlow{block.line, "the program continues into another program"};
+        expansion_.in_order = false;
+      }
       const bool ends = ends_main(block, dialect_);
       // The line that ends a Sinumerik program is not changed.
       if (ends && dialect_.sinumerik_words) return {block.span.begin, block.line};

@@ -11,14 +11,16 @@ using namespace counterflex::test;
 
 namespace {
 
-// The lines that run.
+// The lines that run, also of a program behind the mark at the begin of a tape.
 void check_executed(const std::string& dialect, const std::string& text, const std::string& lines) {
-  CAPTURE(text);
-  const Executed e = executed(text, dialect);
-  CHECK(e.text == lines);
-  CHECK(e.expansion.executed > 0);
-  CHECK(e.expansion.in_order);
-  CHECK(e.expansion.unexpanded_calls.empty());
+  for (const std::string mark : {"", "%\n"}) {
+    CAPTURE(mark + text);
+    const Executed e = executed(mark + text, dialect);
+    CHECK(e.text == mark + lines);
+    CHECK(e.expansion.executed > 0);
+    CHECK(e.expansion.in_order);
+    CHECK(e.expansion.unexpanded_calls.empty());
+  }
 }
 
 void check_left(const std::string& dialect, const std::string& text, int line, std::string_view why) {
@@ -165,6 +167,11 @@ TEST_CASE("a flow that is not known from the text leaves the program unchanged")
   check_left("fanuc", "O1\n#1=1\nIF [#1 EQ 1] THEN X5.\nM30\n", 3,
              "THEN needs exactly one assignment behind it");
   check_left("fanuc", "O1\nN1 X1.\nGOTO 1\nM30\n", 3, "the executed lines are longer than 250000 bytes");
+}
+
+TEST_CASE("fanuc: jumps behind another program number are not counted as executed") {
+  const std::string text = "%\nG21 G90 G0 X1.\nO2\nGOTO 5\nG1 X2. F100\nN5 M30\n%\n";
+  CHECK_FALSE(executed(text, "fanuc").expansion.in_order);
 }
 
 TEST_CASE("if a loop is unknown, calls outside of it are replaced, and a remark gives the reason") {
