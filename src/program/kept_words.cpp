@@ -33,6 +33,13 @@ std::optional<StatementForm> statement_form(const std::string& dialect) {
   return std::nullopt;
 }
 
+/// Letters of the feed word at `i`; of F alone one.
+std::size_t feed_name_size(const std::string& words, std::size_t i) {
+  for (const std::string_view name : {"FMAX", "FAUTO", "FU", "FZ", "FT"})
+    if (words.compare(i, name.size(), name) == 0) return name.size();
+  return 1;
+}
+
 }  // namespace
 
 std::string kept_words(const Program& program, const Move& move) {
@@ -75,7 +82,7 @@ bool is_plain(const std::string& words) {
     const char c = upper(words[i]);
     if (c == '(') i = std::min(words.find(')', i), words.size() - 1);
     if (c >= 'A' && c <= 'Z' && c != 'F') return false;
-    if (c == 'F' && words.compare(i, 4, "FMAX") == 0) i += 3;
+    if (c == 'F') i += feed_name_size(words, i) - 1;
   }
   return true;
 }

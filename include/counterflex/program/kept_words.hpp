@@ -31,7 +31,8 @@ bool is_line_of_guard(const Program& program, std::size_t begin);
 /// Whether the kept words of two moves are of one statement. A line may be a chord of an arc.
 bool are_alike(const std::string& a, const std::string& b);
 
-/// Whether kept words are only those that an inserted piece may have: F. Comments do not count.
+/// Whether kept words are only those that an inserted piece may have: F, in Klartext also FMAX, FAUTO, FU, FZ
+/// and FT. Comments do not count.
 bool is_plain(const std::string& words);
 
 }  // namespace counterflex

@@ -262,6 +262,7 @@ struct Move {
   /// A word of the block acts at its start or end: a line between corners is not split, either.
   bool stays_whole : 1 = false;
   bool block_delete : 1 = false;  ///< a '/' block: states that it sets are unknown afterwards
+  bool sets_force : 1 = false;    ///< a comment (FORCE ...) is in its block
   /// It begins at a target in joint values, which is not corrected.
   bool starts_uncorrected : 1 = false;
   bool has_tool_length : 1 = false;  ///< a tool length acts (G43, the tool of a TOOL CALL)

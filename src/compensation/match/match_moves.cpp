@@ -20,7 +20,8 @@ constexpr double nearer_mm = 1e-9;
 
 // A feed block whose words act at its beginning is itself the first piece: the others follow it.
 bool acts_first(const Move& original, const std::string& words) {
-  return original.motion == Motion::feed && !changes_height_inside(original) && !is_plain(words);
+  return original.motion == Motion::feed && !changes_height_inside(original) &&
+         (original.sets_force || !is_plain(words));
 }
 
 // The pieces of a robot's statement are copies of it.

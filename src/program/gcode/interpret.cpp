@@ -35,7 +35,7 @@ void apply_comments(const Block& block, Reading& r) {
   bool may_name = has_comments_alone(text, block);
   for (const Span& comment : block.comments) {
     if (const auto force = read_force_comment(text, r.program.file, block, comment))
-      r.state.force = force->F;
+      r.state.force = force->F, r.force_line = block.line;
     else if (may_name)
       may_name = !r.operation.name(part(text, comment), as_tool(r.state.tool));
   }

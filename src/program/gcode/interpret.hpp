@@ -55,6 +55,7 @@ struct Reading {
   bool lengths_set = false;  ///< G10 has changed tool lengths: the lengths in the options are no longer valid
   bool after_subprogram = false;  ///< after M99 of a subprogram: another program may follow
   bool ended = false;             ///< M2 or M30 was read
+  int force_line = 0;             ///< line of the last comment (FORCE ...)
 
   bool relative() const { return block_relative.value_or(state.relative); }
   bool in_body() const { return body.jumps || !body.open.empty(); }

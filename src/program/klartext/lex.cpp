@@ -177,10 +177,10 @@ void take_value(WordScanner& s, KlartextWord& word) {
   if (word.literal || sign_alone) word.number = {begin, s.at};
 }
 
-bool take_max(WordScanner& s) {
+bool take_name(WordScanner& s, std::string_view name) {
   const std::size_t at = skip_blanks(s.text, s.at, s.end);
-  if (s.end - at < 3 || squeezed(s.text.substr(at, 3)) != "MAX") return false;
-  s.at = at + 3;
+  if (s.end - at < name.size() || squeezed(s.text.substr(at, name.size())) != name) return false;
+  s.at = at + name.size();
   return true;
 }
 
@@ -196,9 +196,10 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   word.key = key.substr(word.incremental ? 1 : 0);
   word.span.begin = s.at;
   s.at += key.size();
-  if (key == "F" && take_max(s)) word.key = "FMAX";  // "F MAX" of older controls
-  if (word.key != "FMAX" && !(key == "MB" && take_max(s)) && key != "FAUTO" && key != "RL" && key != "RR")
-    take_value(s, word);
+  if (key == "F" && take_name(s, "MAX")) word.key = "FMAX";  // "F MAX" of older controls
+  if (key == "F" && take_name(s, "AUTO")) word.key = "FAUTO";
+  const bool is_name = word.key == "FMAX" || word.key == "FAUTO" || key == "RL" || key == "RR";
+  if (!is_name && !(key == "MB" && take_name(s, "MAX"))) take_value(s, word);
   word.span.end = s.at;
   const bool polar = word.key.ends_with("PA") || word.key.ends_with("PR");
   if (polar && s.block.head != "CP" && s.block.head != "LP") return false;

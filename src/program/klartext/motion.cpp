@@ -246,6 +246,7 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   move.operation = r.operation.index_in(r.program, move.motion, move.tool);
   move.may_insert_words = false;
   move.force = state.force;
+  move.sets_force = r.force_line == block.line;
   move.block_delete = !empty(block.block_delete);
   return move;
 }

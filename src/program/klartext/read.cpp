@@ -177,7 +177,7 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
   place.span = block.span;
   for (const Span& comment : block.comments) {
     if (const auto force = read_force_comment(r.program.text, r.program.file, place, comment))
-      r.state.force = force->F;
+      r.state.force = force->F, r.force_line = block.line;
     else if (block.parts.empty())
       name_operation(part(r.program.text, comment), r);
   }

@@ -85,6 +85,7 @@ struct KlartextReading {
   std::map<std::string, double, std::less<>> variables{};  ///< Q parameters with known values: "q5"
   std::string last_reason{};                               ///< reason of the last uncorrected block
   bool ended = false;
+  int force_line = 0;  ///< line of the last comment (FORCE ...)
 };
 
 /// Reads a block with its comments. Throws `InputError` with line and column.

@@ -6,7 +6,7 @@
 #include <cmath>
 
 #include "program/gcode/words/codes.hpp"
-#include "program/text/force_comment.hpp"
+#include "program/text/lex.hpp"
 
 namespace counterflex {
 
@@ -71,15 +71,11 @@ bool begins_with_label(const Original& o) {
 /// These act at its beginning.
 bool is_first_piece(const Original& o) {
   const bool arc = o.move.arc.has_value();
-  return begins_with_label(o) ||
-         std::any_of(o.block.words.begin(), o.block.words.end(),
-                     [&](const Word& word) {
-                       return !is_axis(word) && !(o.move.orientation && is_angle(word)) && !is_motion(word) &&
-                              word.letter != 'F' && word.letter != 'N' &&
-                              !(arc && (is_centre(word) || word.letter == 'P'));
-                     }) ||
-         std::any_of(o.block.comments.begin(), o.block.comments.end(), [&](Span comment) {
-           return read_force_comment(o.program.text, o.program.file, o.block, comment).has_value();
+  return o.move.sets_force || begins_with_label(o) ||
+         std::any_of(o.block.words.begin(), o.block.words.end(), [&](const Word& word) {
+           return !is_axis(word) && !(o.move.orientation && is_angle(word)) && !is_motion(word) &&
+                  word.letter != 'F' && word.letter != 'N' &&
+                  !(arc && (is_centre(word) || word.letter == 'P'));
          });
 }
 

@@ -79,16 +79,31 @@ TEST_CASE("the N of a block belongs to its first piece") {
   CHECK(refused(plain, program(down, "X5\nN41 X10")) == "5: " + wrong);
 }
 
-TEST_CASE("numbers of a split Klartext program are those of its own order") {
-  const Shop shop(
-      {.machine = load_machine(small_mill),
-       .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 F500\n4 L "
-               "Y+250\n5 L X+0\n6 END PGM A MM\n",
-       .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
-  const Compensation result = compensated(shop);
-  REQUIRE(result.counts.inserted_blocks > 0);
-  const auto failure = verify(shop.job(), read_program(result.text, "c.h", {}), false).failure;
-  CHECK(!failure);
+TEST_CASE("a split Klartext program has the numbers of its own order and each kind of feed") {
+  for (const std::string feed : {"F500", "FAUTO", "F AUTO", "FU0.5", "FZ0.1"}) {
+    CAPTURE(feed);
+    const Shop shop(
+        {.machine = load_machine(small_mill),
+         .text = "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F300\n2 L X+0 Y+0 Z+0 R0 FMAX\n3 L X+250 " + feed +
+                 "\n4 L Y+250\n5 L X+0\n6 END PGM A MM\n",
+         .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3)});
+    const Compensation result = compensated(shop);
+    REQUIRE(result.counts.inserted_blocks > 0);
+    const auto failure = verify(shop.job(), read_program(result.text, "c.h", {}), false).failure;
+    CHECK(!failure);
+  }
+}
+
+TEST_CASE("a block whose comment sets the force is the first piece of its move") {
+  for (const std::string text :
+       {"G21 G90 G54 F500\nG0 X0 Y0 Z0\nG1 X40 (FORCE FX=100 FY=0 FZ=50)\nG1 X80\nM2\n",
+        "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0 R0 FMAX\nL X+40 F500 ; FORCE "
+        "FX=100 FY=0 FZ=50\nL X+80\nEND PGM A MM\n"}) {
+    CAPTURE(text);
+    const Shop shop({.machine = load_machine(small_mill), .text = text});
+    const Compensation result = compensated(shop);
+    CHECK(result.counts.inserted_blocks > 0);
+  }
 }
 
 TEST_CASE("the surface of a Klartext cycle goes along with its holes, and nowhere else") {

@@ -266,6 +266,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program, motion, as_tool(r.state.tool));
   if (r.state.force) move.force = r.state.force;
+  move.sets_force = r.force_line == block.line;
   move.exact_stop = r.state.exact_stop;
   move.has_tool_length = has_tool_length(r);
   move.tool_in_spindle = r.state.tool > 0;

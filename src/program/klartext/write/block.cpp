@@ -9,7 +9,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
-#include "program/text/force_comment.hpp"
+#include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
 #include "program/write/step.hpp"
 
@@ -66,13 +66,7 @@ Vector3 own_pole_mm(const Move& move, const TextPosition& position) {
 
 /// Whether a word of the block acts at its beginning, so that no piece may be inserted before it.
 bool is_first_piece(const KlartextBlockWriter& w) {
-  Block place;
-  place.line = w.block.line;
-  place.span = w.block.span;
-  const bool sets_force = std::any_of(w.block.comments.begin(), w.block.comments.end(), [&](Span comment) {
-    return read_force_comment(w.program.text, w.program.file, place, comment).has_value();
-  });
-  return sets_force || find_word(w.words, "M") != nullptr || find_word(w.words, "MB") != nullptr;
+  return w.move.sets_force || find_word(w.words, "M") != nullptr || find_word(w.words, "MB") != nullptr;
 }
 
 std::string klartext_word(const KlartextBlockWriter& w, std::size_t axis, const WordNumber& number) {
