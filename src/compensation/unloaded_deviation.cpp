@@ -42,7 +42,8 @@ UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* s
   PlaceSolver solver(starts, false);
   const WantedPose wanted = solver.wanted(at);
   if (wanted.status != Status::converged) return {wanted.status};
-  const ForwardAnswer actual = solver.forward({.model = at.model, .target = at.p_MT, .R = at.R_MT});
+  const ForwardAnswer actual =
+      solver.forward({.model = at.model, .target = at.p_MT, .within_travel = true, .R = at.R_MT});
   if (actual.status != Status::converged) return {actual.status};
   return {Status::converged, actual.X_MT.p - wanted.X_MT.p};
 }

@@ -149,7 +149,7 @@ struct UnloadedDeviation {
   Vector3 d = Vector3::Zero();
 };
 
-/// `starts`: as for a job.
+/// `outside_travel` where an actuator would be beyond its travel. `starts`: as for a job.
 UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts = nullptr);
 
 /// The mean over `places` of the offset at `X_MW`: the common shift of a path that the errors and the weights

@@ -31,7 +31,7 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
         ErrorKind::machine_or_force, {file},
         fmt::format(
             "[work.{}] was touched off at ({:.6g}, {:.6g}, {:.6g}) mm of the machine frame, which the "
-            "machine does not reach: {}",
+            "machine does not reach: {}. The point is given in coordinates of the offset itself",
             offset, p_MT.x() / mm, p_MT.y() / mm, p_MT.z() / mm, to_string(status)));
   };
   const UnloadedDeviation touched = unloaded_deviation({&model, p_MT});
