@@ -102,9 +102,8 @@ void fill_rows(const FitProblem& problem, const Fit& fit, Identification& result
     if (row.weight == 0 || !row.at.is_found)
       result.outliers.push_back(
           {measured.at, problem.measurements.sessions[row.session].name, error, ratio(row)});
-    else if (measured.is_length) {
-      squares += error * error;
-      ++count;
+    else {
+      if (measured.is_length) squares += error * error, ++count;
       if (!problem.measurements.sessions[row.session].sigma_given) continue;
       stated += error * error / (measured.sigma * measured.sigma * static_cast<double>(row.at.distances));
       ++with_sigma;

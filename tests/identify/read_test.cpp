@@ -3,6 +3,7 @@
 #include <filesystem>
 #include <fstream>
 
+#include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/measurements.hpp"
 #include "counterflex/machine/read_machine.hpp"
@@ -15,9 +16,9 @@ Machine mill() {
   return load_machine(COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml");
 }
 
-Measurements read(const std::string& csv) {
+Measurements read(const std::string& csv, const Machine& machine = mill()) {
   Measurements all;
-  read_measurements(csv, "data.csv", mill(), all);
+  read_measurements(csv, "data.csv", machine, all);
   return all;
 }
 
@@ -117,8 +118,26 @@ TEST_CASE("bad measurements are refused at their place") {
         "data.csv:2:1: error: rows of kind static_push need a column \"reading\"");
   CHECK(error_of("kind,X_mm,Y_mm,Z_mm,bar,length_mm\nlength_bar,0,0,0,a,300\n") ==
         "data.csv:2:1: error: bar \"a\" has one end; a bar has two rows, one for each end");
+  CHECK(error_of("kind,X_mm,Y_mm,Z_mm,bar,length_mm\nlength_bar,0,0,0,a,300\nlength_bar,0,50,0,a,300.5\n") ==
+        "data.csv:3:21: error: the length of the bar is 300.5 mm here and 300 mm in line 2");
+  CHECK(error_of("kind,axes,squareness_um_per_m,radius_mm\nsquareness,XY,-18,0\n") ==
+        "data.csv:2:19: error: the radius is 0 mm; it must be above 0");
+  CHECK(error_of("kind,axis,scale_um_per_m,radius_mm\nscale,X,20,-5\n") ==
+        "data.csv:2:12: error: the radius is -5 mm; it must be above 0");
   CHECK(error_of("kind,axes,squareness_um_per_m\nsquareness,XB,-18\n") ==
         "data.csv:2:12: error: axes is \"XB\"; it must name two linear axes of the machine, as XY");
+}
+
+TEST_CASE("a weight hangs along gravity, also where the control corrects the weight of the machine") {
+  std::string text = read_file(COUNTERFLEX_SOURCE_DIR "/samples/mill3/machine.toml");
+  text.insert(text.find("name ="), "gravity_m_s2 = [0, 0, 9.81]\n");
+  text += "\n[controller]\nalready_corrects = [\"gravity\"]\n";
+  const Measurements all = read(
+      "kind,X_mm,Y_mm,Z_mm,fx_N,gx,gy,gz,mass_kg,reading_um\nhung_weight,0,0,0,,,,,20,40\n"
+      "static_push,0,0,0,100,1,0,0,,7\n",
+      read_machine(text, "ceiling.toml"));
+  CHECK(all.rows[0].states[0].F[2] == doctest::Approx(196.2));
+  CHECK(all.rows[0].direction.isApprox(Vector3::UnitZ()));
 }
 
 TEST_CASE("a description states the frame of its rows and where the probe is expected") {

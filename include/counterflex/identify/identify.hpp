@@ -137,8 +137,8 @@ struct Identification {
   std::vector<FreeCombination> free;
   std::vector<SessionNoise> noise;      ///< of sessions with repeated readings
   std::optional<double> repeatability;  ///< m: rms scatter of repeated readings of all sessions
-  double lack_of_fit = 0;               ///< m: rms of the residuals of positions and readings
-  std::optional<double> misfit;         ///< the same in units of the deviations that the rows state
+  std::optional<double> lack_of_fit;    ///< m: rms of the residuals of positions and lengths
+  std::optional<double> misfit;         ///< of all rows that state their deviations, in units of these
   int iterations = 0;
   bool is_converged = false;
   Machine machine;                            ///< with the identified values

@@ -270,9 +270,11 @@ struct Uncertainty {
 
 /// What pulls at masses, and when the controller's zero was set.
 struct Gravity {
-  Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights act
-  bool true_at_home = false;    ///< the zero was set under the machine's own weight at home, not unloaded
-  Location reference_at;        ///< where the file sets `true_at_home`
+  Vector3 g = Vector3::Zero();  ///< m/s2, axes of M; zero: no weights of the machine act
+  /// The same of weights that are hung on the machine: the control does not correct these.
+  Vector3 of_hung{0, 0, -9.80665};
+  bool true_at_home = false;  ///< the zero was set under the machine's own weight at home, not unloaded
+  Location reference_at;      ///< where the file sets `true_at_home`
 };
 
 /// A part that deflects with its fixture. It is fixed to M through one spring; the tip's deviation is

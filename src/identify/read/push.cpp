@@ -26,25 +26,25 @@ double phase_of(const Table& table, Session& session) {
 
 }  // namespace
 
-Vector3 gauge_direction(const Table& table, MeasurementKind kind) {
-  if (kind == MeasurementKind::hung_weight && !table.has("gx") && !table.has("gy") && !table.has("gz"))
-    return -Vector3::UnitZ();
+Vector3 gauge_direction(const Table& table) {
   const Vector3 direction = vector(table, "gx", "gy", "gz");
   if (!(direction.norm() > 1e-6))
     table.fail("", "gx, gy, gz are zero; they must be the direction of the gauge");
   return direction.normalized();
 }
 
-void read_push(const Table& table, const Axes& axes, const Vector3& weight_g, MeasurementKind kind,
+void read_push(const Table& table, const Axes& axes, const Vector3& hung_g, MeasurementKind kind,
                Session& session, Measurement& row) {
   row.states.push_back(row.states[0]);
   Vector6& F = row.states[0].F;
   if (kind == MeasurementKind::static_push)
     F << vector(table, "fx", "fy", "fz"), vector(table, "mx", "my", "mz");
   else
-    F.head<3>() = table.value("mass") * weight_g;
+    F.head<3>() = table.value("mass") * hung_g;
   if (F.isZero(0)) table.fail("", "the force is zero");
-  row.direction = gauge_direction(table, kind);
+  const bool has_direction = table.is_filled("gx") || table.is_filled("gy") || table.is_filled("gz");
+  row.direction =
+      kind == MeasurementKind::hung_weight && !has_direction ? hung_g.normalized() : gauge_direction(table);
   row.value = table.value("reading");
   row.gauge = vector(table, "gauge_x", "gauge_y", "gauge_z");
   const Vector3 force = F.head<3>(), arm = vector(table, "force_x", "force_y", "force_z");

@@ -5,13 +5,13 @@
 
 namespace counterflex::measurement_file {
 
-/// The direction of the gauge of the current row, a unit vector in M. A hung weight is read downwards unless
-/// the table has a direction. Throws `InputError`.
-Vector3 gauge_direction(const Table& table, MeasurementKind kind);
+/// The direction of the gauge of the current row, a unit vector in M. Throws `InputError`.
+Vector3 gauge_direction(const Table& table);
 
 /// Fills the force and the gauge of a push or of a hung weight whose first state has actuator values: the
-/// second state is that without the force. `weight_g`: of hung masses, in M (m/s2). Throws `InputError`.
-void read_push(const Table& table, const Axes& axes, const Vector3& weight_g, MeasurementKind kind,
+/// second state is that without the force. `hung_g`: of hung masses, in M (m/s2); they are read along it
+/// unless the row has a direction. Throws `InputError`.
+void read_push(const Table& table, const Axes& axes, const Vector3& hung_g, MeasurementKind kind,
                Session& session, Measurement& row);
 
 }  // namespace counterflex::measurement_file

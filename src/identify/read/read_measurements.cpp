@@ -21,8 +21,7 @@ namespace {
 
 using namespace measurement_file;
 
-constexpr double default_weight_g = 9.80665;  // m/s2, where the machine file has no gravity
-constexpr double default_radius = 50 * mm;    // of a motion that shows squareness or scale
+constexpr double default_radius = 50 * mm;  // of a motion that shows squareness or scale
 
 /// Whether the value of a kind is an angle or a ratio whose deviation has a column of its own.
 bool is_slope(MeasurementKind kind) {
@@ -53,7 +52,7 @@ class RowReader {
     check_actuators();
     while (table.next()) read_row();
     if (!open_bars_.empty())
-      csv::fail(open_bars_.begin()->second,
+      csv::fail(open_bars_.begin()->second.at,
                 fmt::format("bar \"{}\" has one end; a bar has two rows, one for each end",
                             open_bars_.begin()->first));
   }
@@ -217,10 +216,10 @@ class RowReader {
         break;
       case MeasurementKind::static_push:
       case MeasurementKind::hung_weight:
-        read_push(*table_, axes_, weight(), kind, all_.sessions[row.session], row);
+        read_push(*table_, axes_, machine_.gravity.of_hung, kind, all_.sessions[row.session], row);
         break;
       case MeasurementKind::axis_position:
-        row.direction = gauge_direction(*table_, kind);
+        row.direction = gauge_direction(*table_);
         row.value = table_->value("reading");
         break;
       default:
@@ -233,19 +232,25 @@ class RowReader {
     const csv::Field* bar = table_->text("bar");
     const std::string name = bar == nullptr ? "" : std::string(bar->text);
     row.value = table_->value("length");
-    if (const auto open = open_bars_.find(name); open == open_bars_.end()) {
-      open_bars_.emplace(name, row.at);
-      first_ends_.emplace(name, row.states[0]);
+    const auto open = open_bars_.find(name);
+    if (open == open_bars_.end()) {
+      open_bars_.emplace(name, row);
       return false;
     }
-    row.states.push_back(first_ends_.at(name));
-    open_bars_.erase(name);
-    first_ends_.erase(name);
+    const Measurement& first = open->second;
+    if (first.value != row.value)
+      table_->fail("length", fmt::format("the length of the bar is {:g} mm here and {:g} mm in line {}",
+                                         row.value / mm, first.value / mm, first.at.line));
+    row.states.push_back(first.states[0]);
+    open_bars_.erase(open);
     return true;
   }
 
-  Vector3 weight() const {
-    return machine_.gravity.g.isZero(0) ? Vector3(0, 0, -default_weight_g) : machine_.gravity.g;
+  double radius() const {
+    const double radius = table_->value_or("radius", default_radius);
+    if (!(radius > 0))
+      table_->fail("radius", fmt::format("the radius is {:g} mm; it must be above 0", radius / mm));
+    return radius;
   }
 
   std::size_t axis_named(std::string_view column) const {
@@ -327,8 +332,7 @@ class RowReader {
       row.is_length = false;
       row.value = table_->value("scale");
       set_sigma(kind, row);
-      const double radius = table_->value_or("radius", default_radius);
-      row.states = {moved(state.shown, axis, -radius), moved(state.shown, axis, radius)};
+      row.states = {moved(state.shown, axis, -radius()), moved(state.shown, axis, radius())};
     }
     all_.rows.push_back(std::move(row));
   }
@@ -369,9 +373,8 @@ class RowReader {
   /// Four states: each axis to both sides.
   void read_squareness(const std::vector<std::size_t>& pair, Measurement row) {
     const Eigen::VectorXd centre = shown_values_of(MeasurementKind::squareness);
-    const double radius = table_->value_or("radius", default_radius);
     for (const std::size_t axis : pair)
-      for (const double side : {-1.0, 1.0}) row.states.push_back(moved(centre, axis, side * radius));
+      for (const double side : {-1.0, 1.0}) row.states.push_back(moved(centre, axis, side * radius()));
     row.session = session_of(MeasurementKind::squareness);
     row.is_length = false;
     row.value = table_->value("squareness");
@@ -386,9 +389,8 @@ class RowReader {
   Table* table_ = nullptr;
   Axes axes_;
   Eigen::VectorXd shown_home_;
-  std::map<std::string, Location> open_bars_;
-  std::map<std::string, CommandedState> first_ends_;
-  std::map<std::size_t, CommandedState> last_;  ///< by session: the row before
+  std::map<std::string, Measurement> open_bars_;  ///< rows of first ends, by the bar's name
+  std::map<std::size_t, CommandedState> last_;    ///< by session: the row before
 };
 
 }  // namespace

@@ -120,7 +120,7 @@ void read_gravity(const toml::table& document, const Source& source, Machine& ma
   Gravity& gravity = machine.gravity;
   const toml::node* g = document.get("gravity_m_s2");
   if (g != nullptr) {
-    gravity.g = as_vector3(*g, "gravity_m_s2", {source});
+    gravity.g = gravity.of_hung = as_vector3(*g, "gravity_m_s2", {source});
     if (!(gravity.g.norm() > 0))
       source.fail(*g, "gravity_m_s2 is a zero vector; leave it out if there is no weight");
     if (!(gravity.g.norm() <= strongest_gravity))

@@ -76,8 +76,7 @@ std::string free_names(const Identification& found) {
 constexpr double large_misfit = 3;
 
 std::string misfit_lines(const Identification& found) {
-  std::string text = fmt::format("residuals    {:.4g} mm rms of all rows", found.lack_of_fit / mm);
-  if (found.misfit) text += fmt::format(", {:.2g} of their stated deviations", *found.misfit);
+  std::string text = "residuals    " + residual_words(found);
   text += found.noise.empty() ? "; without repeats noise and lack of fit are not known\n" : "\n";
   for (const SessionNoise& noise : found.noise)
     text += fmt::format("noise        {}, {}: {}\n", noise.session, name_of(noise.kind), noise_words(noise));
@@ -258,7 +257,7 @@ std::string to_json(const Identification& found) {
   for (const LadderStep& step : found.ladder) json["ladder"].push_back(json_of(step));
   json["held_out"] = Json::array();
   for (const HeldOutGroup& group : found.held_out) json["held_out"].push_back(json_of(group));
-  json["lack_of_fit_mm"] = found.lack_of_fit / mm;
+  json["lack_of_fit_mm"] = found.lack_of_fit ? Json(*found.lack_of_fit / mm) : Json(nullptr);
   if (found.misfit) json["misfit"] = *found.misfit;
   json["repeatability_mm"] = found.repeatability ? Json(*found.repeatability / mm) : Json(nullptr);
   json["noise"] = Json::array();

@@ -136,10 +136,9 @@ std::string file_line(const Location& at) {
 }
 
 std::string row_tables(const Identification& found) {
-  std::string text = fmt::format(
-      "<h2>Noise and lack of fit</h2>\n<p>All rows miss by {:.4g} mm rms{}. {}</p>\n", found.lack_of_fit / mm,
-      found.misfit ? fmt::format(", {:.2g} of their stated deviations", *found.misfit) : "",
-      found.noise.empty() ? "Without repeats noise and lack of fit are not known." : "");
+  std::string text =
+      fmt::format("<h2>Noise and lack of fit</h2>\n<p>Residuals: {}. {}</p>\n", residual_words(found),
+                  found.noise.empty() ? "Without repeats noise and lack of fit are not known." : "");
   for (const SessionNoise& noise : found.noise)
     text += fmt::format("<p>{}, {}: {}</p>\n", xml_escaped(noise.session), name_of(noise.kind),
                         noise_words(noise));

@@ -40,6 +40,9 @@ std::string range_words(const LeftRange& left);
 /// "a reading scatters by 0.054 mm (120 repeats) ..."
 std::string noise_words(const SessionNoise& noise);
 
+/// The residuals of a fit in words: "0.004 mm rms of all lengths, 1.1 of the stated deviations".
+std::string residual_words(const Identification& found);
+
 struct ErrorUnit {
   std::string_view name;
   double si;

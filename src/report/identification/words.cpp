@@ -12,6 +12,14 @@ std::string range_words(const LeftRange& left) {
       left.trained_min / unit, left.trained_max / unit, left.turns ? "deg" : "mm");
 }
 
+std::string residual_words(const Identification& found) {
+  const std::string lengths =
+      found.lack_of_fit ? fmt::format("{:.4g} mm rms of all lengths", *found.lack_of_fit / mm) : "";
+  const std::string ratio = found.misfit ? fmt::format("{:.2g} of the stated deviations", *found.misfit) : "";
+  if (lengths.empty() && ratio.empty()) return "not known: no row is a length or states its deviation";
+  return lengths + (lengths.empty() || ratio.empty() ? "" : ", ") + ratio;
+}
+
 std::string noise_words(const SessionNoise& noise) {
   const ErrorUnit unit = unit_of(noise.kind, true);
   std::string text = fmt::format(
