@@ -100,6 +100,10 @@ void sweep_left(const OutputPaths& paths) {
 std::string stem_of_report(const Options& options) {
   if (options.report->empty() || *options.report == "-")
     throw InputError(ErrorKind::usage, {}, "--report needs the stem of file names, not standard output (-)");
+  const fs::path name = fs::path(*options.report).filename();
+  if (name == "." || name == "..")
+    throw InputError(ErrorKind::usage, {},
+                     fmt::format("--report needs the stem of file names; '{}' is a folder", *options.report));
   return *options.report;
 }
 
@@ -138,9 +142,16 @@ std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<
     files.push_back((main.parent_path() / parts[i].name).generic_string() +
                     main.extension().generic_string());
   check_paths(files, inputs_of(options), options.folders);
-  if (!options.force_overwrite)
-    for (const std::string& file : files) refuse_foreign({{file, has_corrected_header}});
   files.erase(files.begin());
+  // Modules of two programs may have one name. What the last run wrote is replaced.
+  for (const std::string& file : files)
+    if (!options.force_overwrite && fs::exists(file) && fs::file_size(file) > 0 &&
+        !are_of_one_program(file, paths.program))
+      throw InputError(
+          ErrorKind::usage, {file},
+          fmt::format("the program is divided, and the file of this part exists and is not one of those "
+                      "of {} as it was; write into another folder, or give --force-overwrite",
+                      without_controls(paths.program)));
   return files;
 }
 

@@ -58,6 +58,11 @@ bool has_corrected_header(const std::string& path) {
   return !program_digits(beginning_of(path)).empty();
 }
 
+bool are_of_one_program(const std::string& a, const std::string& b) {
+  const std::vector<std::string> digits = program_digits(beginning_of(a));
+  return !digits.empty() && digits == program_digits(beginning_of(b));
+}
+
 bool is_corrected_from(const std::string& output, const std::vector<std::string>& files) {
   const std::string header = beginning_of(output);
   std::vector<std::string> digits = program_digits(header);

@@ -8,6 +8,9 @@ namespace counterflex::cli {
 /// Whether the file begins with the header of a corrected program.
 bool has_corrected_header(const std::string& path);
 
+/// Whether both files have such a header, of the same original program.
+bool are_of_one_program(const std::string& a, const std::string& b);
+
 /// Whether the header of the corrected program `output` has the hashes of `files`: the program and its data
 /// lists. False if one of them cannot be read.
 bool is_corrected_from(const std::string& output, const std::vector<std::string>& files);
