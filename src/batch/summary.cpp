@@ -46,8 +46,8 @@ Document files_of(const std::vector<FileHash>& files) {
 
 Document job_of(const JobOutcome& outcome, ExitStatusOf exit_status) {
   Document job;
-  job["program"] = utf8_of_bytes(outcome.program);
-  job["output"] = utf8_of_bytes(outcome.output);
+  job["program"] = outcome.program;
+  job["output"] = outcome.output;
   job["verdict"] = outcome.verdict;
   job["verdict_reason"] = outcome.verdict_reason;
   job["status"] = status_text(outcome);

@@ -26,17 +26,6 @@ std::vector<Pose> wanted_poses(const Options& options, const Model& model) {
   return poses;
 }
 
-/// Values of `--at` for components that the machine does not control, and the values used instead.
-void warn_of_uncontrolled(const PoseAnalysis& pose, const Pose& wanted, const std::string& at,
-                          Console& console) {
-  const Vector6 difference = deviation(pose.X_MT, wanted);
-  const bool turned = pose_of("--at", at).has_orientation && difference.tail<3>().norm() > 1e-9;
-  if (difference.head<3>().norm() < 1e-9 && !turned) return;
-  console.warning("--at " + at, 0,
-                  "the machine does not control all components of this pose; the others are those of the "
-                  "nominal machine");
-}
-
 /// Reports the poses that were not solved. Returns the kind of error, or none.
 std::optional<ErrorKind> judge(const AnalysisReport& report, const std::vector<Pose>& wanted,
                                const Options& options, Console& console) {
@@ -53,7 +42,8 @@ std::optional<ErrorKind> judge(const AnalysisReport& report, const std::vector<P
       console.error(fmt::format("--at {}: error: no target corrects this pose: {}", options.analyze.at[i],
                                 to_string(status)));
     else
-      warn_of_uncontrolled(pose, wanted[i], options.analyze.at[i], console);
+      warn_of_uncontrolled(pose.X_MT, wanted[i], pose_of("--at", options.analyze.at[i]).has_orientation,
+                           "--at " + options.analyze.at[i], console);
     if (status == Status::converged || error == ErrorKind::not_compensated) continue;
     error = status == Status::outside_travel ? ErrorKind::limit : ErrorKind::not_compensated;
   }

@@ -184,8 +184,8 @@ std::string fit_json(const FitInput& input, const SpindleFit& fit) {
   for (std::size_t g = 0; g < input.groups.size(); ++g) {
     const FitGroup& group = input.groups[g];
     const ShownCoefficient of = shown_coefficient(group, fit.scales[g]);
-    nlohmann::ordered_json entry{{"cutter", utf8_of_bytes(group.cutter)},
-                                 {"material", utf8_of_bytes(group.material)},
+    nlohmann::ordered_json entry{{"cutter", group.cutter},
+                                 {"material", group.material},
                                  {"coefficient", of.key},
                                  {"given", rounded(of.given, 6)},
                                  {"samples", fit.scales[g].samples}};
@@ -194,10 +194,12 @@ std::string fit_json(const FitInput& input, const SpindleFit& fit) {
     entry["sigma"] = identified ? nlohmann::ordered_json(rounded(of.sigma, 6)) : nullptr;
     fits.push_back(std::move(entry));
   }
-  nlohmann::ordered_json json{
-      {"schema", "counterflex-force-fit 1"},  {"program", utf8_of_bytes(input.program)},
-      {"log", utf8_of_bytes(input.log.file)}, {"channel", power ? "power" : "torque"},
-      {"samples", input.log.samples.size()},  {"used_samples", fit.samples}};
+  nlohmann::ordered_json json{{"schema", "counterflex-force-fit 1"},
+                              {"program", input.program},
+                              {"log", input.log.file},
+                              {"channel", power ? "power" : "torque"},
+                              {"samples", input.log.samples.size()},
+                              {"used_samples", fit.samples}};
   if (!input.log.by_line) {
     json["offset_s"] = rounded(fit.offset, 6);
     json["drift_s"] = rounded(fit.drift, 6);
@@ -206,7 +208,7 @@ std::string fit_json(const FitInput& input, const SpindleFit& fit) {
   json["neighbour_correlation"] = rounded(fit.correlation, 6);
   json["idle"] = std::move(idle);
   json["coefficients"] = std::move(fits);
-  return json.dump(2) + "\n";
+  return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
 }
 
 std::string_view without_fit_mark(std::string_view text) {

@@ -62,6 +62,15 @@ bool asks_for_kinematics(const Options& options) {
   return true;
 }
 
+void warn_of_uncontrolled(const Pose& found, const Pose& wanted, bool has_orientation,
+                          const std::string& option, Console& console) {
+  const Vector6 off = deviation(found, wanted);
+  if (off.head<3>().norm() < 1e-9 && !(has_orientation && off.tail<3>().norm() > 1e-9)) return;
+  console.warning(option, 0,
+                  "the machine does not control all components of this pose; the others are those of the "
+                  "nominal machine");
+}
+
 std::optional<ErrorKind> run_kinematics(const Options& options, const Model& model, SpindleAxis spindle_axis,
                                         const std::string& tool, Console& console) {
   const AnalyzeOptions& analyze = options.analyze;
@@ -76,6 +85,8 @@ std::optional<ErrorKind> run_kinematics(const Options& options, const Model& mod
     X_MT.R = X_MT.R * tool_axes(spindle_axis);
     report.places.push_back(place_at_tip(model, X_MT));
     asked.push_back("--pose " + text);
+    if (report.places.back().status == Status::converged)
+      warn_of_uncontrolled(report.places.back().X_MT, X_MT, true, asked.back(), console);
   }
   write_result(options.json ? to_json(report) : to_text(report));
   std::optional<ErrorKind> error;

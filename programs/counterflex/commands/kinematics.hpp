@@ -8,6 +8,10 @@
 
 namespace counterflex::cli {
 
+/// Warns where the machine has another pose than the one that `option` wants.
+void warn_of_uncontrolled(const Pose& found, const Pose& wanted, bool has_orientation,
+                          const std::string& option, Console& console);
+
 /// Whether `options` name joints or a pose, so that kinematics are shown instead of an analysis. Throws
 /// (ErrorKind::usage) for values and combinations that are not allowed.
 bool asks_for_kinematics(const Options& options);

@@ -91,11 +91,14 @@ nlohmann::ordered_json or_null(const std::optional<double>& number) {
 }
 
 std::string json_line(const JobOutcome& outcome) {
-  const nlohmann::ordered_json line{
-      {"program", utf8_of_bytes(outcome.program)}, {"output", outcome.output},
-      {"exit", exit_number(outcome.error_kind)},   {"verdict", outcome.verdict},
-      {"verdict_reason", outcome.verdict_reason},  {"error", outcome.error},
-      {"before_mm", or_null(outcome.before_mm)},   {"after_mm", or_null(outcome.after_mm)}};
+  const nlohmann::ordered_json line{{"program", outcome.program},
+                                    {"output", outcome.output},
+                                    {"exit", exit_number(outcome.error_kind)},
+                                    {"verdict", outcome.verdict},
+                                    {"verdict_reason", outcome.verdict_reason},
+                                    {"error", outcome.error},
+                                    {"before_mm", or_null(outcome.before_mm)},
+                                    {"after_mm", or_null(outcome.after_mm)}};
   return line.dump(-1, ' ', false, nlohmann::json::error_handler_t::replace) + "\n";
 }
 

@@ -138,8 +138,6 @@ std::optional<ErrorKind> compensate_run(const Options& options, Run& run, const 
   run.facts.output = without_controls(paths.program);  // the report omits it if no program is written
   if (!failure) finish_program(options, run, points, paths, files);
   if (!failure && proof) run.facts.proof = proof->facts(run);
-  if (failure && failure->kind == ErrorKind::usage)
-    return print_failure(run, failure, console);  // no result: an option is wrong
   return report_end(
       run, finish_run(options, run, report_compensation(run.context(), tally, failure), tally, files), files);
 }

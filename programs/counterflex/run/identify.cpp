@@ -9,6 +9,7 @@
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/identification.hpp"
+#include "process/read_input.hpp"
 #include "run/program_places.hpp"
 
 namespace counterflex::cli {
@@ -91,9 +92,12 @@ std::optional<ErrorKind> identify_run(const Options& options, const MachineInput
                                       Identification& found) {
   IdentifyOptions wanted = identify_options(options);
   if (const std::string& prior = options.identify.prior; !prior.empty())
-    wanted.prior = read_covariance(read_file(prior), prior, input.machine);
+    wanted.prior = read_covariance(read_input(prior, ErrorKind::machine_or_force), prior, input.machine);
   Measurements measurements;
-  for (const std::string& file : options.identify.data) load_measurements(file, input.machine, measurements);
+  or_unreadable(ErrorKind::machine_or_force, [&] {
+    for (const std::string& file : options.identify.data)
+      load_measurements(file, input.machine, measurements);
+  });
   if (measurements.empty_rows > 0)
     console.note(
         fmt::format("{} rows of sheets have no measured value and are skipped\n", measurements.empty_rows));

@@ -23,6 +23,7 @@
 #include "run/program_axes.hpp"
 #include "run/reading.hpp"
 #include "run/sanity.hpp"
+#include "run/significance.hpp"
 #include "run/uncertainty.hpp"
 
 namespace counterflex::cli {
@@ -102,6 +103,15 @@ void warn_of_tools(Run& run) {
       what = ": " + stiffness_phrase(*tool);
     if (!what.empty()) run.facts.warnings.push_back({0, fmt::format("tool T{}{}", number, what)});
   }
+}
+
+/// Compensation refuses it.
+void warn_of_corrected(Run& run, Command command) {
+  if (!run.is_corrected || command == Command::compensate) return;
+  run.facts.warnings.push_back({1,
+                                "the program is a corrected one (COUNTERFLEX 1): its lines are not those of "
+                                "the original, so forces that "
+                                "are given by line act elsewhere"});
 }
 
 /// Warns of work offsets without a datum. They count as "machine".
@@ -223,6 +233,7 @@ std::unique_ptr<Run> prepared_run(const Options& options, MachineInput machine, 
   add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
                     run->work.frames);
   run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models, run->work.frames);
+  if (options.samples > 0) refuse_without_uncertainty(*run, "--samples");
   run->ignored = uncontrolled_axes(on, run->work.frames);
   forces.settle({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored});
   run->options = compensation_options(options, on);
@@ -234,6 +245,7 @@ std::unique_ptr<Run> prepared_run(const Options& options, MachineInput machine, 
   refuse_wrong(run->sanity, on);
   run->facts = facts_of(options, *run);
   run->facts.warnings = axis_warnings;
+  warn_of_corrected(*run, options.command);
   warn_of_datum(*run);
   warn_of_orientation(*run);
   warn_of_tools(*run);

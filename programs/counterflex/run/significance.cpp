@@ -5,12 +5,16 @@
 
 namespace counterflex::cli {
 
+void refuse_without_uncertainty(const Run& run, const std::string& option) {
+  if (!run.uncertainties.empty()) return;
+  throw InputError(ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
+                   option +
+                       " needs the uncertainty of this machine: add [uncertainty] here, and a sigma to each "
+                       "known number of [parameters], or give --uncertainty FILE; else leave the option out");
+}
+
 void find_insignificant(Run& run, Console& console) {
-  if (run.uncertainties.empty())
-    throw InputError(ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
-                     "--only-significant needs the uncertainty of this machine: add [uncertainty] here, and "
-                     "a sigma to each "
-                     "known number of [parameters], or give --uncertainty FILE; else leave the option out");
+  refuse_without_uncertainty(run, "--only-significant");
   console.progress("comparing deviations with their bands");
   ProgramReader reader(run.file.bytes, run.program.file, run.read);
   JobWindows windows(run.input(), reader);

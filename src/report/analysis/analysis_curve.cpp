@@ -50,8 +50,9 @@ std::string curves_text(const AnalysisReport& report) {
   if (!report.curve) return "";
   const Vector3& d = report.curve->direction;
   std::string text =
-      fmt::format("\nForce over displacement of the tip along ({}, {}, {}), from its place without force\n",
-                  format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3));
+      fmt::format("\nForce over displacement of the tip along ({}, {}, {}), from its place {}\n",
+                  format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3),
+                  report.load.F.isZero(0) ? "without force" : "under --force, to which this force adds");
   text += fmt::format("  {:>3}{:>18}{:>18}{:>18}\n", "", "mm", "N", "tangent, N/um");
   for (std::size_t i = 0; i < report.poses.size(); ++i)
     if (report.poses[i].curve) text += curve_text(i + 1, *report.poses[i].curve);

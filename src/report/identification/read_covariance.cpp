@@ -30,8 +30,8 @@ const Parameter& parameter_named(const std::vector<Parameter>& all, const std::s
 }  // namespace
 
 KnownParameters read_covariance(std::string_view text, const std::string& file, const Machine& machine) {
-  const Json document = parse_json(text, text, 0, file);
-  const JsonSource source{document, file};
+  const Json document = parse_json(text, text, 0, file, ErrorKind::machine_or_force);
+  const JsonSource source{document, file, ErrorKind::machine_or_force};
   if (source.text("/schema") != schema)
     fail(file,
          fmt::format("the schema is \"{}\"; it must be \"{}\": give the STEM.json that identify --report "

@@ -70,18 +70,19 @@ Location place_of(std::string_view text, std::size_t offset, const std::string& 
   return {file, static_cast<int>(line), static_cast<int>(before.size() - start) + 1};
 }
 
-Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file) {
+Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file,
+                ErrorKind kind) {
   if (const std::size_t at = too_deep(text); at < text.size())
-    throw InputError(ErrorKind::usage, place_of(whole, offset + at, file),
+    throw InputError(kind, place_of(whole, offset + at, file),
                      fmt::format("lists and objects are nested more than {} deep", deepest));
   try {
     return Json::parse(text);
   } catch (const Json::parse_error& error) {
     const std::size_t byte = error.byte > 0 ? error.byte - 1 : 0;  // it counts from 1
-    throw InputError(ErrorKind::usage, place_of(whole, offset + byte, file),
+    throw InputError(kind, place_of(whole, offset + byte, file),
                      "is not JSON: " + parser_message(error.what()));
   } catch (const Json::exception& error) {  // a number beyond the range of double
-    throw InputError(ErrorKind::usage, place_of(whole, offset + place_of_number(text, error.what()), file),
+    throw InputError(kind, place_of(whole, offset + place_of_number(text, error.what()), file),
                      "cannot be read: " + without_tag(error.what()));
   }
 }
@@ -103,8 +104,7 @@ void JsonSource::refuse(const std::string& pointer, const Json& value, const cha
   constexpr std::size_t most = 60;
   std::string seen = value.dump(-1, ' ', true, Json::error_handler_t::replace);
   if (seen.size() > most) seen = seen.substr(0, most) + "...";
-  throw InputError(ErrorKind::usage, {file},
-                   fmt::format("{} is {}; {} or null is allowed", pointer, seen, wanted));
+  throw InputError(kind, {file}, fmt::format("{} is {}; {} or null is allowed", pointer, seen, wanted));
 }
 
 std::optional<double> JsonSource::number(const std::string& pointer) const {

@@ -14,6 +14,7 @@ namespace counterflex {
 struct JsonSource {
   const Json& document;
   std::string file;
+  ErrorKind kind = ErrorKind::usage;  ///< of a value of the wrong type
 
   const Json* find(const std::string& pointer) const;  ///< of any type; nullptr if missing
   std::optional<double> number(const std::string& pointer) const;
@@ -26,9 +27,10 @@ struct JsonSource {
 };
 
 /// Parses `text`, which begins at byte `offset` of `whole`, the content of `file`. Throws `InputError`
-/// (ErrorKind::usage) with line and column in `file` if it is not JSON, has a number that is too large, or is
+/// (of that kind) with line and column in `file` if it is not JSON, has a number that is too large, or is
 /// nested too deep.
-Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file);
+Json parse_json(std::string_view text, std::string_view whole, std::size_t offset, const std::string& file,
+                ErrorKind kind = ErrorKind::usage);
 
 /// The place of a byte of `text`.
 Location place_of(std::string_view text, std::size_t offset, const std::string& file);

@@ -1,6 +1,5 @@
 #include <fmt/core.h>
 
-#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/json/json_numbers.hpp"
@@ -328,9 +327,9 @@ std::string failed_json(Command command, std::string_view version, const InputEr
                {"failure",
                 {{"exit", exit_status},
                  {"kind", name_of(error.kind())},
-                 {"file", utf8_of_bytes(where.file)},
+                 {"file", where.file},
                  {"line", where.line},
-                 {"what", utf8_of_bytes(error.what())}}}});
+                 {"what", error.what()}}}});
 }
 
 std::string to_json(const RunReport& report) {

@@ -86,8 +86,8 @@ std::string force_line(const RunReport& report) {
   if (!report.before) return "";
   const ForceSummary& forces = report.forces;
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
-    return item("force", report.gravity.empty() ? "none given: geometric errors only"
-                                                : "none given: geometric errors and weight only");
+    return item("force", report.gravity.empty() ? "none acts: geometric errors only"
+                                                : "none acts: geometric errors and weight only");
   std::string text = fmt::format("up to {} N", format_fixed(forces.largest_N, 1));
   if (forces.without.moves > 0)
     text += fmt::format(", {} without", counted(forces.without.moves, "feed move"));
