@@ -17,6 +17,7 @@ constexpr Dialect linuxcnc{.name = "linuxcnc",
                            .feed_mode_ends_feed = true,
                            .feed_before_unit = true,
                            .number_anywhere = false,
+                           .keeps_level = true,
                            .o_words = true};
 
 constexpr Dialect grbl{.name = "grbl",

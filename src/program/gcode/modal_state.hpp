@@ -89,6 +89,7 @@ struct ModalState {
   bool relative = false;  ///< G91
   bool absolute_centres = false;
   bool returns_to_retract = false;  ///< G99
+  bool level_is_stated = false;     ///< G98 or G99 was read
   CycleState cycle;
   std::size_t frame = 0;  ///< index into Program::frames
   FrameShifts shifts{};   ///< shifts of that frame

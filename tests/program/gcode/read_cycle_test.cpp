@@ -43,6 +43,22 @@ TEST_CASE("a cycle that begins at an unknown height leaves Z unknown under G98")
   CHECK_FALSE(program.moves[2].known_end[2]);
 }
 
+TEST_CASE("LinuxCNC keeps G98 or G99 of the program before, so a height that differs by them is not known") {
+  const auto end_of = [](const std::string& level, const std::string& r, const std::string& dialect) {
+    return read("G21 G90" + level + " G0 X0. Y0. Z10.\nG81 X1. Y2. Z-5. R" + r + " F100.\n", dialect)
+        .moves[1];
+  };
+  CHECK_FALSE(end_of("", "2.", "linuxcnc").known_end[2]);
+  CHECK(end_of("", "10.", "linuxcnc").known_end[2]);
+  CHECK(end_of(" G98", "2.", "linuxcnc").known_end[2]);
+  CHECK(end_of(" G99", "2.", "linuxcnc").end_mm.z() == 2);
+  CHECK(end_of("", "2.", "fanuc").end_mm.z() == 10);
+  const Program program = read("G21 G90 G0 X0 Y0 Z10\nG81 X1 Y2 Z-5 R2 F100\nX3\n", "linuxcnc");
+  CHECK(program.moves[2].handling == Handling::own);
+  REQUIRE(program.remarks.size() == 1);
+  CHECK(program.remarks[0].what.starts_with("G98 or G99 is not programmed before this cycle"));
+}
+
 TEST_CASE("relative cycles and repeats are held") {
   const Program program = read("O1\nG21 G90 G0 X0. Y0. Z10.\nG82 Z-5. R1. F100.\nG91 X2. L3\nY-1.\n");
   CHECK(program.moves[1].handling == Handling::own);

@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "program/gcode/moves/read_move.hpp"
+#include "program/gcode/remarks.hpp"
 
 namespace counterflex {
 namespace {
@@ -43,6 +44,11 @@ void set_levels(const ModalState& state, CycleMove& hole) {
   hole.bottom_mm = cycle.bottom.value_or(hole.retract_mm) + (cycle.relative ? hole.retract_mm : 0);
 }
 
+/// Whether G98 and G99 leave the tool at the same height.
+bool is_above_start(const ModalState& state, const CycleMove& hole) {
+  return state.cycle.initial && hole.retract_mm >= *state.cycle.initial;
+}
+
 /// The height at which the cycle leaves the tool. The retract plane is known if the hole has R, or if the
 /// tool is already at the plane. It is then known in the corrected text, too.
 void set_height_after_hole(ModalState& state, const CycleMove& hole) {
@@ -50,7 +56,7 @@ void set_height_after_hole(ModalState& state, const CycleMove& hole) {
   const bool has_retract = hole.retract_word && (!cycle.relative || cycle.initial);
   const bool stays = state.known[2] && cycle.left_at_retract && state.position_mm.z() == hole.retract_mm;
   const bool retract_known = has_retract || stays;
-  const bool at_retract = hole.returns_to_retract || (cycle.initial && hole.retract_mm >= *cycle.initial);
+  const bool at_retract = hole.returns_to_retract || is_above_start(state, hole);
   if (at_retract) {
     state.known[2] = retract_known && (hole.returns_to_retract || cycle.initial);
     state.position_mm.z() = hole.retract_mm;
@@ -150,6 +156,13 @@ void read_cycle(const Block& block, Reading& r) {
   if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
   const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom && !turned;
   if (hole.repeats > 0) set_height_after_hole(state, hole);
+  if (r.dialect.keeps_level && !state.level_is_stated && !is_above_start(state, hole)) {
+    state.known[2] = false;
+    add_remark(r.program, block.line,
+               "G98 or G99 is not programmed before this cycle, and the control keeps what a program before "
+               "has set: "
+               "the height behind the holes is not known; write G98 or G99");
+  }
   if (hole.bottom_word || r.sorted.word('Z') != nullptr)
     state.cycle.bottom_unknown = !followed || !empty(block.block_delete);
   hole.may_insert_bottom =

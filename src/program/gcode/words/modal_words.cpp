@@ -78,6 +78,7 @@ void apply_distance(Reading& r) {
   }
   if (r.sorted.has(Action::initial_level) || r.sorted.has(Action::retract_level)) {
     r.state.returns_to_retract = r.sorted.has(Action::retract_level);
+    r.state.level_is_stated = true;
     mark_known(r.state, unknown_level);
   }
 }
