@@ -94,9 +94,10 @@ bool place_external(const RobotTarget& target, RobotReading& r, int line) {
 void allow_changes(const TargetMove& how, bool external_stay, Move& move) {
   const bool line = move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end);
   move.exact_stop = move.motion == Motion::feed && !how.passes;
-  move.may_split = line && how.passes && external_stay;
+  move.may_split = line && how.passes && external_stay && !how.stays_whole;
   // Behind a joint target the robot may stop once more: the correction begins there.
-  const bool may_begin = move.may_split || (line && external_stay && move.starts_uncorrected);
+  const bool may_begin =
+      !how.stays_whole && (move.may_split || (line && external_stay && move.starts_uncorrected));
   move.may_jump = may_begin && move.feed_mm_min > 0;
 }
 

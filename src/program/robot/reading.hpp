@@ -53,9 +53,10 @@ struct TargetMove {
   Motion motion = Motion::feed;  ///< a joint move to a Cartesian target is a rapid
   bool relative = false;         ///< the numbers of the position are differences from the last target
   StatedTurns stated_turns = StatedTurns::none;
-  bool passes = false;  ///< the robot does not stop at the target: C_DIS, a zone, CNT
-  bool rounds = true;   ///< where it passes; false for APT, which leaves that to the post
-  TargetZone zone{};    ///< where it passes; without words: corrections do not change it
+  bool passes = false;       ///< the robot does not stop at the target: C_DIS, a zone, CNT
+  bool rounds = true;        ///< where it passes; false for APT, which leaves that to the post
+  TargetZone zone{};         ///< where it passes; without words: corrections do not change it
+  bool stays_whole = false;  ///< something acts at a place of this motion: no other may be inserted
 };
 
 /// Begins a move in the state before the statement of `line`.

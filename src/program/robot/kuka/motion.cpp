@@ -54,6 +54,7 @@ bool has_word(const MotionStatement& statement, std::string_view word) {
 }
 
 TargetMove with_zone(const KrlReading& r, const MotionStatement& statement, TargetMove how) {
+  how.stays_whole = r.has_trigger;
   for (const std::string& word : statement.words) how = with_krl_zone(r, word, how);
   return how;
 }

@@ -182,7 +182,11 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
   if (r.routine_ended || line.code.begin < r.behind_loop) return;
   const Span name = name_at(text, line.code.begin, line.code.end);
   const std::string head = krl_word(part(text, name));
-  if (is_one_of(head, motions)) return read_krl_motion(r, line, head, name.end);
+  if (is_one_of(head, motions)) {
+    read_krl_motion(r, line, head, name.end);
+    r.has_trigger = false;
+    return;
+  }
   if (is_one_of(head, splines))
     refuse(file, line, name.begin,
            fmt::format("{} is a spline motion, which is not supported; post the job with LIN, CIRC and PTP",
@@ -207,6 +211,7 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
     const auto assignment = assignment_in(text, line.code);
     return assignment ? read_assignment(r, line, *assignment) : void();
   }
+  if (head == "TRIGGER") r.has_trigger = true;
   if (is_one_of(head, motionless)) return;
   read_other(r, line, name);
 }

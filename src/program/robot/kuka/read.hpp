@@ -39,7 +39,8 @@ struct KrlReading {
   std::vector<KrlLoop> loops{};  ///< over elements of these arrays
   std::size_t behind_loop = 0;   ///< the statements before this byte are those of a loop
   bool routine_ended = false;
-  bool has_called = false;  ///< a routine that may change variables was called
+  bool has_trigger = false;  ///< a TRIGGER acts at a place of the next motion
+  bool has_called = false;   ///< a routine that may change variables was called
   bool in_data_list = false;
 };
 

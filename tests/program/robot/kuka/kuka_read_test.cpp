@@ -108,6 +108,19 @@ TEST_CASE("a line that stops at its target, or whose external axes move, is not 
   CHECK(program.external_axes_move->what.find("from 0 to 5") != std::string::npos);
 }
 
+TEST_CASE("a motion behind a TRIGGER stays whole: it acts at a place of this motion") {
+  const Program program = read_statements(
+      "PTP {X 0,Y 0,Z 0,A 0,B 0,C 0}\n$VEL.CP=0.1\n"
+      "LIN {X 1} C_DIS\n"
+      "TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[1]=TRUE\n"
+      "LIN {X 2} C_DIS\n"
+      "LIN {X 3} C_DIS\n");
+  CHECK(program.moves[1].may_split);
+  CHECK_FALSE(program.moves[2].may_split);
+  CHECK_FALSE(program.moves[2].may_jump);
+  CHECK(program.moves[3].may_split);
+}
+
 TEST_CASE("the program gives its external axes with their first lines, also from a joint target before it") {
   const Program program = read_statements(
       "PTP {A1 0,A2 -90,A3 90,A4 0,A5 0,A6 0,E1 850}\n"
