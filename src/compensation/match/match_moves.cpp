@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <limits>
 
 #include "compensation/solve/commands.hpp"
@@ -161,6 +162,24 @@ MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
   return matched;
 }
 
+namespace {
+
+constexpr double same_time = 1e-3;  // of the time of a block: F is rounded
+
+// G93: the pieces of a block take its time together. A block without F keeps it so.
+std::optional<Failure> time_failure(const MatchedMoves& matched) {
+  const Move& original = matched.original;
+  if (original.motion != Motion::feed || original.feed_mode != FeedMode::inverse_time) return std::nullopt;
+  double minutes = 0;
+  for (const CorrectedMove& found : matched.found) minutes += 1 / found.move->feed_per_min;
+  const double wanted = 1 / original.feed_per_min;
+  if (minutes == wanted || std::abs(minutes - wanted) <= same_time * wanted) return std::nullopt;
+  return matched.failure(
+      fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
+}
+
+}  // namespace
+
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
   const Move& original = matched.original;
   const std::string& wanted = matched.words;
@@ -204,7 +223,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   }
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
     return matched.failure("the words of the original's block are in several blocks here, or in no block");
-  return std::nullopt;
+  return time_failure(matched);
 }
 
 }  // namespace counterflex

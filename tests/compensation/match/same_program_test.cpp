@@ -94,6 +94,21 @@ TEST_CASE("a split Klartext program has the numbers of its own order and each ki
   }
 }
 
+TEST_CASE("under G93 the pieces of a block take its time") {
+  const auto program = [](const char* across) {
+    return fmt::format("G21 G90 G54\nG0 X0 Y0 Z0\nG93 G1 X40 F20\n{}\nG94\nM2\n", across);
+  };
+  const Shop shop({.machine = rigid_gantry("0, 0, 0"), .text = program("X80 F10")});
+  const auto refused = [&](const char* across) {
+    const auto failure = verify(shop.job(), read_program(program(across), "changed.ngc", {}), false).failure;
+    return failure ? failure->what : "";
+  };
+  CHECK(refused("X80 F10").empty());
+  CHECK(refused("X60 F20\nX80 F20").empty());
+  for (const char* across : {"X80 F100", "X60 F10\nX80 F10"})
+    CHECK(refused(across).find("min here, in the original 0.1 min") != std::string::npos);
+}
+
 TEST_CASE("a block whose comment sets the force is the first piece of its move") {
   for (const std::string text :
        {"G21 G90 G54 F500\nG0 X0 Y0 Z0\nG1 X40 (FORCE FX=100 FY=0 FZ=50)\nG1 X80\nM2\n",
