@@ -12,6 +12,7 @@
 #include "program/robot/fanuc/kept_words.hpp"
 #include "program/robot/kept_words.hpp"
 #include "program/robot/kuka/lex.hpp"
+#include "program/robot/rapid/kept_words.hpp"
 #include "program/robot/rapid/lex.hpp"
 #include "program/robot/ur/kept_words.hpp"
 #include "program/robot/ur/lex.hpp"
@@ -49,6 +50,7 @@ std::string kept_words(const Program& program, const Move& move) {
   auto form = statement_form(program.dialect);
   if (!form) return gcode_kept_words(program, move);
   if (program.dialect == ur_name) describe_ur_statement(program.text, move, *form);
+  if (program.dialect == abb_name) describe_rapid_statement(program.text, move, *form);
   return statement_kept_words(program, move, *form);
 }
 

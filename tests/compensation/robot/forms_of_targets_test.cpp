@@ -90,7 +90,9 @@ TEST_CASE("RAPID gives targets and zones by name and by value, with options betw
                 tail + " MoveL p1,v25,near" + tail + " MoveL p2\\ID:=3,v25,near\\Inpos:=inpos50" + tail +
                 " MoveL p1,v25,[FALSE,5,7,7,.7,7,.7]" + tail + " MoveL p2,v25,z5" + tail +
                 " MoveC p3,p4,v25,z1" + tail + " MoveL p1,v25\\V:=20,z1" + tail + " MoveL\\Conc,p2,v25,z1" +
-                tail + "ENDPROC\nENDMODULE\n");
+                tail + " MoveL Offs( p1 ,0,20,-.5),v25,z1" + tail + " MoveL RelTool(p2, 1, 2, 0),v25,z1" +
+                tail + " MoveL Offs([[60,60,10]," + rapid_rest + ",5,0,0),v25,z1" + tail +
+                "ENDPROC\nENDMODULE\n");
 }
 
 TEST_CASE("a chord of an arc has the statement of the arc, besides the auxiliary point") {

@@ -171,13 +171,18 @@ RapidOperand derived_operand(const RapidPlace& place, Span span, const std::vect
 
 }  // namespace
 
-RapidOperand rapid_operand(const RapidPlace& place, Span span) {
+RapidDisplacement rapid_displacement(std::string_view text, Span span) {
   constexpr std::size_t with_displacement = 4;
   for (const bool in_tool : {false, true}) {
-    const auto arguments = arguments_of(place.text, span, in_tool ? "RELTOOL" : "OFFS");
-    if (arguments.size() == with_displacement) return derived_operand(place, span, arguments, in_tool);
+    std::vector<Span> arguments = arguments_of(text, span, in_tool ? "RELTOOL" : "OFFS");
+    if (arguments.size() == with_displacement) return {std::move(arguments), in_tool};
   }
-  return plain_operand(place, span);
+  return {};
+}
+
+RapidOperand rapid_operand(const RapidPlace& place, Span span) {
+  const auto [arguments, in_tool] = rapid_displacement(place.text, span);
+  return arguments.empty() ? plain_operand(place, span) : derived_operand(place, span, arguments, in_tool);
 }
 
 std::optional<JointPlace> rapid_joints(const RapidPlace& place, Span span) {

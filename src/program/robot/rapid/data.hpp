@@ -25,6 +25,13 @@ struct RapidOperand {
 };
 RapidOperand rapid_operand(const RapidPlace& place, Span span);
 
+/// Offs or RelTool with a target and three numbers or expressions.
+struct RapidDisplacement {
+  std::vector<Span> arguments;  ///< empty: another target
+  bool in_tool = false;         ///< RelTool
+};
+RapidDisplacement rapid_displacement(std::string_view text, Span span);
+
 /// The place of a jointtarget; empty if its numbers are not known.
 std::optional<JointPlace> rapid_joints(const RapidPlace& place, Span span);
 
