@@ -73,7 +73,9 @@ class MotionPlanner::Window {
         continue;
       }
       plan_.not_corrected += block.machine_position;
-      row_of(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
+      PlanRow& row =
+          row_of(block.machine_position ? plan_.left_rows : plan_.other_rows, block.why, block.line, false);
+      if (block.feeds) ++plan_.left_cut.unknown, ++row.cut.unknown;
     }
   }
 

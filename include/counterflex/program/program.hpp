@@ -25,7 +25,8 @@ struct LeftAlone {
   std::string why;
   /// The block moves axes to a position in machine coordinates, so it is not a move of the program.
   bool machine_position = false;
-  int text_line = 0;  ///< as in Move
+  int text_line = 0;   ///< as in Move
+  bool feeds = false;  ///< such a block that may cut: a feed move of unknown length
 };
 
 /// Line of Program::text of a move or of an uncorrected block. Both are sorted by it.

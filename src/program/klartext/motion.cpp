@@ -137,7 +137,10 @@ void add_machine_position(const KlartextBlock& block, KlartextReading& r) {
     if (find_word(r.words, klartext_axes[axis]) != nullptr) move_by_machine(r, axis);
   r.state.run_begin = r.program.moves.size();
   r.state.contour = r.state.after_contour = false;
-  add_uncorrected(r, {block.line, "M91 or M92: a position of the machine", true});
+  add_uncorrected(r, {.line = block.line,
+                      .why = "M91 or M92: a position of the machine",
+                      .machine_position = true,
+                      .feeds = find_word(r.words, "FMAX") == nullptr});
 }
 
 /// The distance of M140 depends on the machine: an inserted word in the next block would move back.

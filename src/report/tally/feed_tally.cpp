@@ -38,6 +38,7 @@ bool is_known_hole(const Move& move) {
 }  // namespace
 
 void FeedTally::add_window(const Job& window) {
+  for (const LeftAlone& block : window.program.left_alone) moves_.count += block.feeds;
   for (const Move& move : window.program.moves) {
     if (move.mills_at_end) ++moves_.count;  // the length milled around the end is unknown
     if (!counts(move, window.program)) continue;

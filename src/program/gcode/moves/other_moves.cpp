@@ -20,7 +20,10 @@ void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
-  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+  // Fanuc goes there in rapid.
+  const bool feeds =
+      !reference && r.state.motion == MotionMode::feed && (r.dialect.family & shop_families) == 0;
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line, feeds});
 }
 
 void apply_retract(const Block& block, Reading& r) {
