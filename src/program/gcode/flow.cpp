@@ -169,6 +169,7 @@ void return_from_call(Reading& r) {
 }
 
 void mark_differences_unknown(const ModalState& before, ModalState& now) {
+  now.level_is_stated = now.level_is_stated && before.level_is_stated;
   now.unknown_modes |= differences(before, now);
   now.displaced |= before.displaced;
   now.offsets_set |= before.offsets_set;

@@ -49,6 +49,7 @@ TEST_CASE("LinuxCNC keeps G98 or G99 of the program before, so a height that dif
         .moves[1];
   };
   CHECK_FALSE(end_of("", "2.", "linuxcnc").known_end[2]);
+  CHECK_FALSE(end_of("\n/G98\n", "2.", "linuxcnc").known_end[2]);
   CHECK(end_of("", "10.", "linuxcnc").known_end[2]);
   CHECK(end_of(" G98", "2.", "linuxcnc").known_end[2]);
   CHECK(end_of(" G99", "2.", "linuxcnc").end_mm.z() == 2);

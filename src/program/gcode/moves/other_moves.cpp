@@ -20,9 +20,9 @@ void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   end_contour(r);
   r.run_begin = r.program.moves.size();
   r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
-  // Fanuc goes there in rapid.
+  // G53 of Fanuc is a rapid under any motion.
   const bool feeds =
-      !reference && r.state.motion == MotionMode::feed && (r.dialect.family & shop_families) == 0;
+      !reference && r.state.motion == MotionMode::feed && (r.dialect.family & fanuc_family) == 0;
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line, feeds});
 }
 
