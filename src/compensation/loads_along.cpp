@@ -24,11 +24,10 @@ bool is_larger(double value, double than) {
 }  // namespace
 
 LoadPlace LoadPlaces::place_of(const Job& job, const Waypoint& w) const {
-  const Segment& segment = job.path.segments[w.segment];
-  const Vector3 target = original_command(job, segment.frame, w.p_MT) + w.correction.head<3>();
+  const Move& move = job.program.moves[w.move];
+  const Vector3 target = original_command(job, move.frame, w.p_MT) + w.correction.head<3>();
   const Load load{w.wrench, job.forces.at_platform()};
-  const std::int32_t tool = job.program.moves[segment.move].tool;
-  return {count_, w, target, load, &model_of(job, segment), tool, segment.frame};
+  return {count_, w, target, load, &model_of(job, w.move), move.tool, move.frame};
 }
 
 double LoadPlaces::value_of(const Job& job, const Waypoint& w) const {
@@ -38,7 +37,7 @@ double LoadPlaces::value_of(const Job& job, const Waypoint& w) const {
 
 void LoadPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
-    if (!w.cutting || w.segment == no_segment || w.status != Status::converged) continue;
+    if (!tool_cuts_at(job.program, w) || w.status != Status::converged) continue;
     add_to_stretch(job, w);
     add_peaks(job, w);
     ++count_;

@@ -35,9 +35,10 @@ void add_move(Overview& overview, const Move& move) {
   overview.plunges += is_plunge(move);
   overview.rapids += move.motion == Motion::rapid;
   overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
-  if (move.motion == Motion::feed && move.tool == 0 && !overview.first_feed_without_tool)
-    overview.first_feed_without_tool = move.line;
-  if ((move.cycle || move.makes_hole) && !overview.first_cycle_line) overview.first_cycle_line = move.line;
+  const bool is_hole = move.cycle || move.makes_hole;
+  if ((move.motion == Motion::feed || is_hole) && move.tool == 0 && !overview.first_cut_without_tool)
+    overview.first_cut_without_tool = move.line;
+  if (is_hole && !overview.first_cycle_line) overview.first_cycle_line = move.line;
   overview.turns_tool = overview.turns_tool || move.orientation;
   if (!move.force) return;
   if (!overview.first_force_line) overview.first_force_line = move.line;

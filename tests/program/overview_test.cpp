@@ -52,7 +52,7 @@ void check_same(const Overview& a, const Overview& b) {
   CHECK(rows_of(a.left_alone) == rows_of(b.left_alone));
   CHECK(a.first_force_line == b.first_force_line);
   CHECK(a.first_cycle_line == b.first_cycle_line);
-  CHECK(a.first_feed_without_tool == b.first_feed_without_tool);
+  CHECK(a.first_cut_without_tool == b.first_cut_without_tool);
   CHECK(a.commented_force == b.commented_force);
 }
 
@@ -90,8 +90,9 @@ TEST_CASE("an overview summarises the whole program") {
 }
 
 TEST_CASE("an overview has the first feed move without a tool number; rapids need no tool") {
-  CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z0\nG1 X1 F100\nT1 M6\nG1 X2\n")).first_feed_without_tool == 2);
-  CHECK_FALSE(overview_of(read("G21 G90 G0 X0 Y0 Z0\nT1 M6\nG1 X2 F100\n")).first_feed_without_tool);
+  CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z0\nG1 X1 F100\nT1 M6\nG1 X2\n")).first_cut_without_tool == 2);
+  CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z5\nG99 G81 X1 Z-1 R1 F100\n")).first_cut_without_tool == 2);
+  CHECK_FALSE(overview_of(read("G21 G90 G0 X0 Y0 Z0\nT1 M6\nG1 X2 F100\n")).first_cut_without_tool);
 }
 
 TEST_CASE("the overview of a program without forces, cycles or text has none of them") {

@@ -283,6 +283,7 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
     const Segment& segment = run.path.segments[i];
     if (!segment.cutting) continue;
     path.push_back(cut(i, segment.line, length(segment.wanted) / mm, Vector3(0.1 * segment.line, 0, 0)));
+    path.back().move = static_cast<std::uint32_t>(segment.move);
   }
   run.model.mechanism.controlled = {Component::x};
   run.job.options.tolerance = 0.1 * mm;
@@ -315,7 +316,9 @@ TEST_CASE("two operations without a rapid between them both include the place be
   run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n\n(B)\nY30\nM30\n", "two.ngc", {});
   run.path = build_toolpath(run.program, one_frame(run.program, {}));
   RunTally tally(2);
-  tally.add_waypoints({cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 6, 30, Vector3(0.05, 0, 0))}, run.job);
+  std::vector<Waypoint> path{cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 6, 30, Vector3(0.05, 0, 0))};
+  for (Waypoint& w : path) w.move = static_cast<std::uint32_t>(run.path.segments[w.segment].move);
+  tally.add_waypoints(path, run.job);
   const std::vector<OperationTally> operations = tally.path().operations();
   REQUIRE(operations.size() == 2);
   CHECK(operations[0].before.statistics().max_mm == doctest::Approx(0.1));

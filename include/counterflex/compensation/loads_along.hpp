@@ -17,7 +17,7 @@
 
 namespace counterflex {
 
-/// A place of a feed move, what is commanded and what acts there.
+/// A place of a feed move or of a cycle, what is commanded and what acts there.
 struct LoadPlace {
   std::size_t number = 0;            ///< of its waypoint, counted from the beginning
   Waypoint at;                       ///< its weight is that of all waypoints it represents

@@ -182,6 +182,11 @@ inline bool is_place_of_cycle(const Program& program, const Waypoint& w) {
   return (w.segment == no_segment && move.cycle) || move.makes_hole || move.mills_at_end;
 }
 
+/// Whether the tool cuts there: on a feed move, or at the place of a cycle.
+inline bool tool_cuts_at(const Program& program, const Waypoint& w) {
+  return w.cutting || is_place_of_cycle(program, w);
+}
+
 /// Whether it is the start of a feed run, under the force that acts there.
 inline bool begins_feed_run(const Waypoint& w) {
   return w.place && w.between && w.fraction == 0;

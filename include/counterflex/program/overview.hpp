@@ -31,9 +31,10 @@ struct Overview {
   Capped<LeftAlone> left_alone;         ///< without the machine positions
   Capped<LeftAlone> machine_positions;  ///< blocks with LeftAlone::machine_position
   std::optional<int> first_force_line;  ///< line of the first move under a FORCE comment other than OFF
-  std::optional<int> first_feed_without_tool;  ///< line of the first feed move whose tool number is unknown
-  std::optional<int> first_cycle_line;         ///< line of the first hole of a cycle
-  std::optional<Remark> external_axes_move{};  ///< as in Program
+  /// Line of the first feed move or hole of a cycle whose tool number is unknown.
+  std::optional<int> first_cut_without_tool;
+  std::optional<int> first_cycle_line;                         ///< line of the first hole of a cycle
+  std::optional<Remark> external_axes_move{};                  ///< as in Program
   std::array<std::optional<ExternalAxis>, 6> external_axes{};  ///< as in Program
   Zones zones{};                                               ///< as in Program
   bool turns_tool = false;                                     ///< whether moves give the tool's orientation

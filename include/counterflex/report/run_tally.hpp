@@ -17,10 +17,11 @@ namespace counterflex {
 
 // From waypoints to numbers, waypoint by waypoint, in memory that does not grow with their number.
 
-/// What is known of the feed move of a waypoint besides its path.
+/// What is known of the feed move or cycle of a waypoint besides its path.
 struct MoveFacts {
   Vector3 common_shift = Vector3::Zero();  ///< of its work offset where no datum is stated (m)
   ToolSize tool;
+  bool is_hole = false;  ///< or another place of a cycle: it has no length
 };
 
 /// The deviations of one tool.
@@ -70,14 +71,15 @@ class WorstLines {
   int last_ = 0, last_but_one_ = 0;
 };
 
-/// Waypoints that were not solved are ignored. Feed moves alone, but for `correction` and
-/// `segments_changed`. They come in the order of the path; a segment is known by its number and line, so that
-/// numbers may start again with every window.
+/// Waypoints that were not solved are ignored. Feed moves and places of cycles alone, but for `correction`
+/// and `segments_changed`. They come in the order of the path; a segment is known by its number and line, so
+/// that numbers may start again with every window.
 class PathTally {
  public:
   /// `operation` counts from 0, as the caller does; `no_operation`: it is not known.
   static constexpr std::int32_t no_operation = -1;
-  /// `facts`: of a feed move. `is_within`: the tolerance, what the tip's controlled position misses there.
+  /// `facts`: of a feed move or a cycle. `is_within`: the tolerance, what the tip's controlled position
+  /// misses there.
   void add(const Waypoint& w, std::int32_t operation = no_operation, const MoveFacts& facts = {},
            bool is_within = true);
 
@@ -208,7 +210,7 @@ class RunTally {
   void add_to_travel(const Waypoint& w, const Job& window);
   void add_as_programmed(const Waypoint& w);
   void add_reversals(const Job& window);
-  MoveFacts facts_of(const Job& window, const Segment& segment) const;
+  MoveFacts facts_of(const Job& window, const Waypoint& w) const;
 
   double min_block_ms_;
   std::vector<ToolSize> tools_;

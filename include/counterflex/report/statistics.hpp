@@ -23,17 +23,20 @@ struct BandStatistics {
   double at_max_mm = 0;   ///< of the largest deviation
   double largest_mm = 0;  ///< the widest band of all
   int largest_line = 0;
-  double rms_mm = 0;         ///< over the cutting length
-  double below_percent = 0;  ///< of that length: the deviation is not larger than its band
+  /// Over the cutting length; empty without one.
+  std::optional<double> rms_mm{};
+  std::optional<double> below_percent{};  ///< of that length: the deviation is not larger than its band
 };
 
 struct DeviationStatistics {
   double max_mm = 0;  ///< largest norm of the position deviation
-  /// Rms, mean and p95 of that norm weigh every sample by its share of the cutting length.
-  double rms_mm = 0;
-  double mean_mm = 0;
-  double p95_mm = 0;  ///< on 95 % of the length the norm is not larger; at most 0.1 % above the exact value
-  int max_line = 0;   ///< where the norm is largest; the first such line; 0 where there was no sample
+  /// Rms, mean and p95 of that norm weigh every sample by its share of the cutting length. Empty where no
+  /// sample has a weight, as in a program of holes.
+  std::optional<double> rms_mm{};
+  std::optional<double> mean_mm{};
+  /// On 95 % of the length the norm is not larger; at most 0.1 % above the exact value.
+  std::optional<double> p95_mm{};
+  int max_line = 0;  ///< where the norm is largest; the first such line; 0 where there was no sample
   Vector3 max_axis_mm = Vector3::Zero();  ///< largest absolute value by axis of the machine
   double max_rotation_deg = 0;            ///< largest rotation angle
   double max_along_mm = 0;                ///< along the path
@@ -89,7 +92,7 @@ class DeviationTally {
   /// As if the samples of `later` had been added after those of this one.
   void merge(const DeviationTally& later);
 
-  /// All zero before the first sample. rms, mean and p95 are zero where no sample has a weight.
+  /// All zero before the first sample.
   DeviationStatistics statistics() const;
 
   std::size_t samples() const { return samples_; }

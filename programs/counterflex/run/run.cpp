@@ -86,9 +86,9 @@ void warn_of_tools(Run& run) {
   const bool bends =
       std::any_of(tools.begin(), tools.end(), [](const auto& t) { return !t.second.yields.empty(); });
   if (run.tool_models.empty() && !bends) return;
-  if (run.program.first_feed_without_tool)
+  if (run.program.first_cut_without_tool)
     run.facts.warnings.push_back(
-        {*run.program.first_feed_without_tool,
+        {*run.program.first_cut_without_tool,
          "no tool is selected here (T with M6): [tool] is used, rigid, and [tools] is not used"});
   for (const long number : run.program.tools) {
     if (number == 0) continue;

@@ -36,7 +36,7 @@ long cell_of(const Vector3& p) {
 
 void ShiftPlaces::add(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
-    if (!(w.cutting && w.place) && !is_place_of_cycle(job.program, w)) continue;
+    if (!tool_cuts_at(job.program, w) || !w.place) continue;
     if (w.status != Status::converged) continue;
     const Move& move = job.program.moves[w.move];
     ShiftPlace place{.number = count_,

@@ -148,7 +148,7 @@ void add_samples(Slice& slice, std::size_t t) {
     places_along(slice.job, slice.solver, piece.segment, slice.cursor, slice.places_inside);
     slice.places_of = piece.segment;
   }
-  const bool ends_at_place = sampled.segment != nullptr && std::ranges::binary_search(fractions, piece.u1);
+  const bool ends_at_place = sampled.segment == nullptr || std::ranges::binary_search(fractions, piece.u1);
   const PieceSample end{.piece = t, .v = 1, .u = piece.u1, .place = ends_at_place};
   if (!slice.questions.inside || piece.end_only) {
     if (sampled.begins_run) add_start(slice, t);

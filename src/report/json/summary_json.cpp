@@ -7,11 +7,19 @@ namespace {
 
 constexpr int summary_digits = 7;  // 1e-7 mm, 1e-7 deg
 
+}  // namespace
+
+Json optional_number(const std::optional<double>& value) {
+  return value ? number(*value, summary_digits) : Json(nullptr);
+}
+
+namespace {
+
 Json statistics_json(const DeviationStatistics& s) {
   Json json = {{"max_mm", number(s.max_mm, summary_digits)},
-               {"rms_mm", number(s.rms_mm, summary_digits)},
-               {"mean_mm", number(s.mean_mm, summary_digits)},
-               {"p95_mm", number(s.p95_mm, summary_digits)},
+               {"rms_mm", optional_number(s.rms_mm)},
+               {"mean_mm", optional_number(s.mean_mm)},
+               {"p95_mm", optional_number(s.p95_mm)},
                {"max_line", s.max_line},
                {"max_axis_mm", numbers(s.max_axis_mm, summary_digits)},
                {"max_rotation_deg", number(s.max_rotation_deg, summary_digits)},
@@ -23,10 +31,6 @@ Json statistics_json(const DeviationStatistics& s) {
 }
 
 }  // namespace
-
-Json optional_number(const std::optional<double>& value) {
-  return value ? number(*value, summary_digits) : Json(nullptr);
-}
 
 Json optional_statistics(const std::optional<DeviationStatistics>& s) {
   return s ? statistics_json(*s) : Json(nullptr);

@@ -1,5 +1,7 @@
 #include "report/json/uncertainty_json.hpp"
 
+#include "report/json/summary_json.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -22,8 +24,8 @@ Json bands_json(const BandStatistics& bands) {
           {"at_max_mm", number(bands.at_max_mm, band_digits)},
           {"largest_mm", number(bands.largest_mm, band_digits)},
           {"largest_line", bands.largest_line},
-          {"rms_mm", number(bands.rms_mm, band_digits)},
-          {"below_percent", number(bands.below_percent, band_digits)}};
+          {"rms_mm", optional_number(bands.rms_mm)},
+          {"below_percent", optional_number(bands.below_percent)}};
 }
 
 Json as_programmed_json(const AsProgrammed& found) {

@@ -58,8 +58,8 @@
     return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
   }
 
-  /** Whether a run has solved a waypoint: without feed moves its numbers are meaningless. */
-  const nothingSolved = ({summary}) => summary.path_mm === 0 || !summary.before;
+  /** Whether a run has solved no place of a feed move or of a hole: it has no numbers then. */
+  const nothingSolved = ({summary}) => !summary.before;
 
   /** The moves that the numbers do not include. */
   function leftOut({blocks}) {
@@ -103,7 +103,7 @@
   function sentence(report, units) {
     const {before, after} = report.summary;
     if (report.failure) return {text: failed(report), kind: 'bad'};
-    if (report.summary.path_mm === 0) return {text: `No waypoint was solved: the program has no feed move.${leftOut(report)}`, kind: 'warn'};
+    if (!before && report.summary.path_mm === 0) return {text: `No waypoint was solved: the program has no feed move.${leftOut(report)}`, kind: 'warn'};
     if (!before) return {text: 'No waypoint was solved: the deviation of all feed moves is unknown.', kind: 'warn'};
     const without = leftOut(report);
     if (!after) return {text: predicted(before, units) + without, kind: without ? 'warn' : 'neutral'};

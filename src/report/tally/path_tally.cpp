@@ -126,8 +126,9 @@ void WorstLines::keep_the_worst() {
 void PathTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
   if (w.status != Status::converged) return;
   if (!w.between) add_target(w);
-  if (w.cutting) return add_cutting(w, operation, facts, is_within);
-  finish_end();
+  if (!w.cutting) finish_end();
+  if (w.cutting || facts.is_hole) add_cutting(w, operation, facts, is_within);
+  if (!w.cutting) finish_end();
 }
 
 Measures PathTally::measures() const {

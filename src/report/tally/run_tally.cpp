@@ -23,12 +23,13 @@ std::int32_t OperationNames::number_of(const Program& window, const Move& move) 
 RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves, std::vector<ToolSize> tools)
     : min_block_ms_(min_block_ms), tools_(std::move(tools)), curves_(std::move(curves)) {}
 
-MoveFacts RunTally::facts_of(const Job& window, const Segment& segment) const {
-  const long number = window.program.moves[segment.move].tool;
+MoveFacts RunTally::facts_of(const Job& window, const Waypoint& w) const {
+  const Move& move = window.program.moves[w.move];
+  const long number = move.tool;
   const auto known =
       std::find_if(tools_.begin(), tools_.end(), [&](const ToolSize& tool) { return tool.number == number; });
-  return {window.path.frames[segment.frame].common_shift.value_or(Vector3::Zero()),
-          known != tools_.end() ? *known : ToolSize{number, {}, {}}};
+  return {window.path.frames[move.frame].common_shift.value_or(Vector3::Zero()),
+          known != tools_.end() ? *known : ToolSize{number, {}, {}}, !w.cutting};
 }
 
 void RunTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
@@ -46,13 +47,13 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
   std::int32_t operation = PathTally::no_operation;
   MoveFacts facts;
   for (const Waypoint& w : waypoints) {
-    if (w.segment != segment) {
+    if (w.segment != segment || segment == no_segment) {
       segment = w.segment;
       operation = PathTally::no_operation;
-      if (segment != no_segment && w.cutting) {
-        const Segment& wanted = window.path.segments[segment];
-        const Move& move = window.program.moves[wanted.move];
-        facts = facts_of(window, wanted);
+      facts = {};
+      if (tool_cuts_at(window.program, w)) {
+        const Move& move = window.program.moves[w.move];
+        facts = facts_of(window, w);
         operation = operation_names_.number_of(window.program, move);
         if (!unit_) unit_ = move.unit;
       }
@@ -61,7 +62,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     feed_.add(w, miss, window);
     if (window.options.only_significant) add_as_programmed(w);
     add(w, operation, facts, miss <= window.options.tolerance);
-    if (segment != no_segment && w.status == Status::converged) add_to_travel(w, window);
+    if (w.status == Status::converged) add_to_travel(w, window);
   }
 }
 
@@ -71,7 +72,7 @@ void RunTally::add_as_programmed(const Waypoint& w) {
 }
 
 void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
-  const Model& model = model_of(window, window.path.segments[w.segment]);
+  const Model& model = model_of(window, w.move);
   if (model.mechanism.controlled.empty()) return;
   travel_.add(model.mechanism, w.rho, w.line);
 }

@@ -34,8 +34,8 @@ std::vector<ChangeInWords> changes_in_words(const BestOffsets& best) {
 std::string rest_in_words(const BestOffsets& best, double tolerance_mm) {
   std::string text = fmt::format("leaves {}{} mm of {}", mm4(best.rest.max_mm), band_text(best.rest),
                                  mm4(best.before.max_mm));
-  if (best.before.rms_mm > 0)  // a program of holes has no cutting length
-    text += fmt::format(" (rms {} of {})", mm4(best.rest.rms_mm), mm4(best.before.rms_mm));
+  if (best.before.rms_mm && best.rest.rms_mm)
+    text += fmt::format(" (rms {} of {})", mm4(*best.rest.rms_mm), mm4(*best.before.rms_mm));
   text += fmt::format(", line {}", best.rest.max_line);
   if (best.is_enough)
     return text +

@@ -58,6 +58,13 @@ std::string row(const std::string& label, const RunReport& report, double Deviat
   return before_after_row(label, mm4(*report.before.*value), report.after ? mm4(*report.after.*value) : "");
 }
 
+/// No row where a program without a cutting length has no such number.
+std::string row(const std::string& label, const RunReport& report,
+                std::optional<double> DeviationStatistics::*value) {
+  if (!(*report.before.*value)) return "";
+  return before_after_row(label, mm4(*report.before.*value), report.after ? mm4(*report.after.*value) : "");
+}
+
 std::string axis_row(const char* label, const RunReport& report, int axis) {
   return before_after_row(label, mm4(report.before->max_axis_mm[axis]),
                           report.after ? mm4(report.after->max_axis_mm[axis]) : "");
@@ -71,11 +78,14 @@ std::string factor(const RunReport& report) {
 
 std::string band_rows(const RunReport& report) {
   if (!report.before->bands) return "";
-  const auto row = [&](const char* label, double BandStatistics::*value, int decimals) {
+  const auto row = [&](const char* label, auto value, int decimals) {
     const auto shown = [&](const std::optional<DeviationStatistics>& s) {
-      return s && s->bands ? format_fixed(*s->bands.*value, decimals) : std::string();
+      const std::optional<double> number =
+          s && s->bands ? std::optional<double>(*s->bands.*value) : std::nullopt;
+      return number ? format_fixed(*number, decimals) : std::string();
     };
-    return before_after_row(label, shown(report.before), shown(report.after));
+    const std::string before = shown(report.before);
+    return before.empty() ? "" : before_after_row(label, before, shown(report.after));
   };
   return row("band of the largest, k = 2: +-", &BandStatistics::at_max_mm, 4) +
          row("widest band", &BandStatistics::largest_mm, 4) +
@@ -86,8 +96,10 @@ std::string band_rows(const RunReport& report) {
 std::string deviation_table(const RunReport& report, const Ink& ink) {
   if (!report.before) return "";
   const bool corrected = report.after.has_value();
-  std::string text = line_break() + ink.bold("Deviation of the tool tip") +
-                     fmt::format(" on {} mm of feed moves, in mm\n", format_fixed(report.path_mm, 3));
+  std::string text =
+      line_break() + ink.bold("Deviation of the tool tip") +
+      (report.path_mm > 0 ? fmt::format(" on {} mm of feed moves, in mm\n", format_fixed(report.path_mm, 3))
+                          : " at holes, in mm\n");
   text += before_after_row("", "before", corrected ? "after *" : "");
   text += row("largest", report, &DeviationStatistics::max_mm);
   text += before_after_row("  in program line", std::to_string(report.before->max_line),

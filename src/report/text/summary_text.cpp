@@ -1,5 +1,5 @@
 // The summary of a run in at most twelve lines.
-#include <fmt/core.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
@@ -66,16 +66,17 @@ std::string after_text(const RunReport& report) {
 
 std::string uncertainty_line(const RunReport& report) {
   if (!report.uncertainty || !report.before || !report.before->bands) return "";
-  std::string text;
+  std::vector<std::string> parts;
   if (const auto& at = report.uncertainty->at_worst)
-    text = fmt::format("+- {} mm (k = 2) is machine {}, force {}, others {}; ", mm4(at->all_mm),
-                       mm4(at->parameters_mm), mm4(at->force_mm), mm4(at->others_mm));
-  text += fmt::format("on {} % of the length the correction is below its own uncertainty",
-                      format_fixed(report.before->bands->below_percent, 0));
+    parts.push_back(fmt::format("+- {} mm (k = 2) is machine {}, force {}, others {}", mm4(at->all_mm),
+                                mm4(at->parameters_mm), mm4(at->force_mm), mm4(at->others_mm)));
+  if (const auto& below = report.before->bands->below_percent)
+    parts.push_back(fmt::format("on {} % of the length the correction is below its own uncertainty",
+                                format_fixed(*below, 0)));
   if (const auto& sampled = report.uncertainty->sampled)
-    text += fmt::format("; {} samples: {} % inside of the bands", sampled->samples,
-                        format_fixed(sampled->covered_percent, 1));
-  return item("uncertainty", text);
+    parts.push_back(fmt::format("{} samples: {} % inside of the bands", sampled->samples,
+                                format_fixed(sampled->covered_percent, 1)));
+  return parts.empty() ? "" : item("uncertainty", fmt::format("{}", fmt::join(parts, "; ")));
 }
 
 std::string other_force(const UnderOtherForce& other) {

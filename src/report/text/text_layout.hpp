@@ -1,5 +1,6 @@
 #pragma once
 /// Text for terminals: emphasis and wrapped paragraphs.
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -34,6 +35,11 @@ inline std::string line_break() {
 /// Millimetres in summaries.
 inline std::string mm4(double value) {
   return format_fixed(value, 4);
+}
+
+/// Blank if unknown.
+inline std::string mm4(const std::optional<double>& value) {
+  return value ? mm4(*value) : "";
 }
 
 /// A row of a table: a label, and the values before and after; blank if unknown.

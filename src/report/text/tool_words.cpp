@@ -13,10 +13,6 @@ namespace {
 
 constexpr std::size_t shown_tools = 3;
 
-std::string if_known(const std::optional<double>& value_mm) {
-  return value_mm ? mm4(*value_mm) : "";
-}
-
 std::string rows_of(const ToolReport& tool) {
   const std::string name = name_of_tool(tool.size);
   const ToolDeviation before = tool.before.value_or(ToolDeviation{});
@@ -25,10 +21,10 @@ std::string rows_of(const ToolReport& tool) {
     return before_after_row(name + ": diameter unknown, tilt deg", mm4(before.tilt_deg),
                             after ? mm4(after->tilt_deg) : "");
   std::string text = before_after_row(name + ": tip", mm4(before.tip_mm), after ? mm4(after->tip_mm) : "") +
-                     before_after_row("  rim", if_known(before.rim_mm), after ? if_known(after->rim_mm) : "");
+                     before_after_row("  rim", mm4(before.rim_mm), after ? mm4(after->rim_mm) : "");
   if (tool.size.flute)
     text += before_after_row(fmt::format("  flank, {:.6g} mm up", *tool.size.flute / mm),
-                             if_known(before.flank_mm), after ? if_known(after->flank_mm) : "");
+                             mm4(before.flank_mm), after ? mm4(after->flank_mm) : "");
   return text;
 }
 

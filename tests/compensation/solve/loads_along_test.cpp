@@ -146,6 +146,7 @@ TEST_CASE("rapids and waypoints that were not solved have no loads, nor has a mo
   waypoints[0].cutting = false;
   waypoints[1].status = Status::singular;
   waypoints[2].segment = no_segment;
+  waypoints[2].cutting = false;
   CHECK(kept_lines(kept(waypoints)) == std::vector{6});
   CHECK(kept({}).empty());
 }

@@ -1,7 +1,7 @@
 'use strict';
 (() => {
   const {el, jump} = counterflex.dom;
-  const {percent, fixed} = counterflex.units;
+  const {known, percent, fixed} = counterflex.units;
   const words = counterflex.words;
 
   /** An important number with its name and place. `mark` is 'warn' for numbers that need attention. */
@@ -17,7 +17,8 @@
 
   function deviationCard(key, label, s, place) {
     const {units} = place.context;
-    const note = [lineNote(place, s.max_line, `${key}_mm`), `, 95 % below ${units.format(s.p95_mm)}`];
+    const note = [lineNote(place, s.max_line, `${key}_mm`)];
+    if (known(s.p95_mm)) note.push(`, 95 % below ${units.format(s.p95_mm)}`);
     const band = s.band ? ` \u00b1 ${units.format(s.band.at_max_mm)}` : '';
     if (band) note.push('; \u00b1 is its band, k = 2');
     return card(key, label, (band ? units.number(s.max_mm) : units.format(s.max_mm)) + band, note);
