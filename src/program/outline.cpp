@@ -95,6 +95,7 @@ void OutlineScan::add_krl(std::string_view lines) {
   outline_.named_targets = outline_.named_targets || names_targets(lines);
   if (!outline_.data_lists) {
     const std::size_t list = data_list_at(lines);
+    krl_.add(lines.substr(0, list));
     outline_.data_lists = list < lines.size();
     const std::string_view mark = lines.substr(list, lines.find('\n', list) - list);
     outline_.list_follows_loop = number_behind_mark(mark).has_value();
@@ -134,6 +135,7 @@ Outline OutlineScan::finish() {
   // A single program that ends with M99 repeats itself. It is not a subprogram.
   if (outline_.subprograms.size() < 2) outline_.subprograms.assign(outline_.subprograms.size(), false);
   outline_.klartext = klartext_.finish();
+  outline_.krl = krl_.finish();
   outline_.named_targets = outline_.named_targets || rapid_.depends_on_far_lines();
   return std::move(outline_);
 }

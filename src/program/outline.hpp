@@ -7,6 +7,7 @@
 #include "program/dialect.hpp"
 #include "program/klartext/labels.hpp"
 #include "program/robot/kuka/loops.hpp"
+#include "program/robot/kuka/routines.hpp"
 #include "program/robot/rapid/module.hpp"
 
 namespace counterflex {
@@ -20,6 +21,7 @@ struct Outline {
   bool named_targets = false;
   bool data_lists = false;         ///< data lists follow a KUKA program
   KrlArrays arrays{};              ///< of these data lists
+  KrlFacts krl{};                  ///< of the routines of a KUKA program
   bool list_follows_loop = false;  ///< the data list is behind the loop that uses it
   bool tool_axes = false;          ///< an APT program gives tool axes: GOTO/ with six numbers
 };
@@ -43,6 +45,7 @@ class OutlineScan {
   Outline outline_;
   KlartextScan klartext_;
   RapidScan rapid_;
+  KrlScan krl_;
   std::size_t open_ = 0;  ///< number of programs at the end of the list that have not ended yet
 };
 

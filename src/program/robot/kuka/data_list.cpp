@@ -34,7 +34,7 @@ RobotLine line_of(std::string_view text, const KrlNamed& element) {
 const KrlNamed& element_of(const KrlReading& r, const KrlLoop& loop, long index) {
   const std::string name = fmt::format("{}[{}]", loop.array, index);
   const auto found = r.named.find(name);
-  if (found != r.named.end() && !found->second.computed_in) return found->second;
+  if (found != r.named.end() && !computed_in(r, name)) return found->second;
   refuse(r.robot.program.file, loop.motion, loop.motion.code.begin,
          fmt::format(
              "the data list does not give '{}' of this loop as a target of plain numbers: {} = {{X 1, Y 2, "
@@ -89,10 +89,16 @@ void read_declaration(KrlReading& r, const RobotLine& line) {
 
 }  // namespace
 
+std::optional<int> computed_in(const KrlReading& r, std::string_view variable) {
+  if (const int line = r.facts.changed_in(variable)) return line;
+  const auto found = r.named.find(variable);
+  return found == r.named.end() ? std::nullopt : found->second.computed_in;
+}
+
 std::optional<KrlAggregate> named_aggregate(const KrlReading& r, std::string_view name) {
   const auto value_of = [&](std::string_view variable) {
     const auto found = r.named.find(variable);
-    const bool known = found != r.named.end() && !found->second.computed_in;
+    const bool known = found != r.named.end() && !computed_in(r, variable);
     return known ? std::optional(found->second.value) : std::nullopt;
   };
   const std::string_view text = r.robot.program.text;
@@ -130,7 +136,10 @@ bool read_data_loop(KrlReading& r, const RobotLine& line) {
   r.behind_loop = loop->end;
   r.robot.program.counts.push_back(loop->last_number);
   if (loop->sets_speed) r.robot.state.feed_mm_min = 0;
-  const TargetMove how = with_krl_zone(r, part(text, loop->motion.code), {});
+  if (loop->sets_zone) r.zone_mm = 0;
+  for (const std::string& variable : loop->assigned)
+    r.named.insert_or_assign(changed_part(variable), KrlNamed{{}, line.line});
+  const TargetMove how = with_krl_zone(r, part(text, loop->motion.code), {.stays_whole = loop->acts});
   if (r.list_follows) {
     r.followed = KrlFollowedLoop{*loop, how};
     return true;

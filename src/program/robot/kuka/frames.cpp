@@ -35,28 +35,51 @@ std::optional<Pose> pose_of(const KrlAggregate& aggregate) {
   return pose;
 }
 
+bool has_pose(const ProgramFrame& frame) {
+  return frame.work_offset != "$BASE" || frame.pose_mm;
+}
+
 /// The pose that the text gives the variable `name`.
 std::optional<Pose> named_pose(const KrlReading& r, std::string_view name) {
   const auto aggregate = named_aggregate(r, name);
   return aggregate ? pose_of(*aggregate) : std::nullopt;
 }
 
+/// A frame of the control that the program does not change is in the machine file.
+ProgramFrame numbered_base(const KrlReading& r, const std::string& name) {
+  if (computed_in(r, name)) return {.work_offset = "$BASE"};
+  return {.work_offset = name, .pose_mm = named_pose(r, name)};
+}
+
 ProgramFrame base_of(const KrlReading& r, Span value) {
   const std::string_view text = r.robot.program.text;
   const std::string name = krl_word(part(text, value));
-  if (in_body(r)) return {.work_offset = "$BASE"};
   if (name == "$NULLFRAME") return {.work_offset = name, .pose_mm = Pose{}};
-  if (index_of(name, "BASE_DATA[")) return {.work_offset = name, .pose_mm = named_pose(r, name)};
-  if (const auto aggregate = aggregate_at(text, value.begin, value.end))
-    return {.work_offset = "$BASE", .pose_mm = pose_of(*aggregate)};
-  return {.work_offset = "$BASE", .pose_mm = named_pose(r, name)};
+  if (index_of(name, "BASE_DATA[")) return numbered_base(r, name);
+  const auto aggregate = aggregate_at(text, value.begin, value.end);
+  if (!aggregate) return {.work_offset = "$BASE", .pose_mm = named_pose(r, name)};
+  const bool is_whole = aggregate->span.end == value.end;  // not {...}:{...}
+  return {.work_offset = "$BASE", .pose_mm = is_whole ? pose_of(*aggregate) : std::nullopt};
 }
 
-void select_tool(KrlReading& r, const std::string& name, bool is_constant,
+/// Which frame a loop or a condition selects is not known behind it, unless it is the one before.
+void select_frame(KrlReading& r, const RobotLine& line, const ProgramFrame& frame) {
+  const bool is_same = r.robot.program.frames[r.robot.state.frame] == frame;
+  if (!has_pose(frame) || (in_body(r) && !is_same)) return forget_krl_base(r, line);
+  enter_robot_frame(r.robot, frame);
+}
+
+void select_tool(KrlReading& r, const RobotLine& line, const std::string& name, bool is_constant,
                  const std::optional<Pose>& tcp_mm) {
-  if (is_constant && r.tool == name) return;
+  if (is_constant && r.tool == name && r.lost_tool == 0) return;
+  r.lost_tool = in_body(r) && r.tool != name ? line.line : 0;
   r.tool = name;
   enter_robot_tool(r.robot, as_tool(index_of(name, "TOOL_DATA[").value_or(0)), tcp_mm);
+}
+
+void select_numbered_tool(KrlReading& r, const RobotLine& line, const std::string& name) {
+  select_tool(r, line, name, !computed_in(r, name), named_pose(r, name));
+  if (computed_in(r, name)) r.lost_tool = line.line;
 }
 
 /// The arguments of a call in upper case without blanks: "#CP_PARAMS", "0.2".
@@ -73,39 +96,58 @@ std::vector<std::string> arguments_at(std::string_view text, std::size_t at, std
   return arguments;
 }
 
+/// The motion parameters of the right side of an assignment: an aggregate, or the name of one.
+std::optional<KrlAggregate> data_of(const KrlReading& r, const std::string& data) {
+  if (auto aggregate = aggregate_at(data, 0, data.size())) return aggregate;
+  return named_aggregate(r, krl_word(data));
+}
+
 /// The frames of the motion parameters FDAT_ACT: tool and base by number, or by the name of a variable.
-void select_frame_data(KrlReading& r) {
+void select_frame_data(KrlReading& r, const RobotLine& line) {
   const std::string& data = r.frame_data;
   if (data.empty()) return;
-  const auto aggregate = aggregate_at(data, 0, data.size());
+  const auto aggregate = data_of(r, data);
   const KrlComponent* tool = aggregate ? find_component(*aggregate, "TOOL_NO") : nullptr;
   const KrlComponent* base = aggregate ? find_component(*aggregate, "BASE_NO") : nullptr;
   const bool numbers = tool != nullptr && base != nullptr && tool->number && base->number;
   const auto number_of = [&](const KrlComponent& c) { return static_cast<long>(c.number->value); };
   const std::string name = numbers ? fmt::format("BASE_DATA[{}]", number_of(*base)) : krl_word(data);
   const std::string tool_name = numbers ? fmt::format("TOOL_DATA[{}]", number_of(*tool)) : krl_word(data);
-  select_tool(r, tool_name, true, named_pose(r, tool_name));
-  enter_robot_frame(r.robot, {.work_offset = name, .pose_mm = named_pose(r, name)});
+  select_numbered_tool(r, line, tool_name);
+  select_frame(r, line, numbered_base(r, name));
+}
+
+/// ORI_TYP of the motion parameters LDAT_ACT, as BAS copies it to $ORI_TYPE.
+void take_line_data(KrlReading& r) {
+  const auto aggregate = data_of(r, r.line_data);
+  const KrlComponent* type = aggregate ? find_component(*aggregate, "ORI_TYP") : nullptr;
+  if (type == nullptr) return;
+  const bool is_own = r.line_data.starts_with('{');
+  const std::string_view text = is_own ? std::string_view(r.line_data) : r.robot.program.text;
+  set_krl_orientation_type(r, krl_word(part(text, type->value)));
 }
 
 }  // namespace
 
-void assign_krl_base(KrlReading& r, const RobotLine& line, Span value) {
-  const ProgramFrame frame = base_of(r, value);
-  const bool computed = frame.work_offset == "$BASE" && !frame.pose_mm;
-  // Another value of the same expression may be another frame.
-  if (computed) forget_position(r.robot);
-  if (computed) note_uncorrected(r.robot, line, "$BASE is computed at run time: its pose is not known");
-  enter_robot_frame(r.robot, frame);
+// Another value of the same expression may be another frame.
+void forget_krl_base(KrlReading& r, const RobotLine& line) {
+  forget_position(r.robot);
+  note_uncorrected(r.robot, line, "$BASE is computed at run time: its pose is not known");
+  enter_robot_frame(r.robot, {.work_offset = fmt::format("$BASE of line {}", line.line)});
 }
 
-void assign_krl_tool(KrlReading& r, const RobotLine&, Span value) {
+void assign_krl_base(KrlReading& r, const RobotLine& line, Span value) {
+  select_frame(r, line, base_of(r, value));
+}
+
+void assign_krl_tool(KrlReading& r, const RobotLine& line, Span value) {
   const std::string_view text = r.robot.program.text;
   const std::string name = krl_word(part(text, value));
+  if (index_of(name, "TOOL_DATA[")) return select_numbered_tool(r, line, name);
   const auto aggregate = aggregate_at(text, value.begin, value.end);
-  const std::optional<Pose> numbers = aggregate ? pose_of(*aggregate) : std::nullopt;
-  select_tool(r, name, !in_body(r) && (numbers || index_of(name, "TOOL_DATA[")),
-              numbers ? numbers : named_pose(r, name));
+  const bool is_whole = aggregate && aggregate->span.end == value.end;
+  const std::optional<Pose> numbers = is_whole ? pose_of(*aggregate) : std::nullopt;
+  select_tool(r, line, name, numbers.has_value(), numbers ? numbers : named_pose(r, name));
 }
 
 void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
@@ -113,15 +155,10 @@ void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
   if (arguments.empty()) return;
   const std::string& what = arguments.front();
   const std::string value = arguments.size() > 1 ? arguments[1] : "";
-  if (what == "#TOOL") {
-    const std::string name = fmt::format("TOOL_DATA[{}]", value);
-    select_tool(r, name, !in_body(r), named_pose(r, name));
-  }
-  if (what == "#BASE") {
-    const std::string name = fmt::format("BASE_DATA[{}]", value);
-    enter_robot_frame(r.robot, {.work_offset = name, .pose_mm = named_pose(r, name)});
-  }
-  if (what == "#FRAMES" || what == "#PTP_PARAMS" || what == "#CP_PARAMS") select_frame_data(r);
+  if (what == "#TOOL") select_numbered_tool(r, line, fmt::format("TOOL_DATA[{}]", value));
+  if (what == "#BASE") select_frame(r, line, numbered_base(r, fmt::format("BASE_DATA[{}]", value)));
+  if (what == "#FRAMES" || what == "#PTP_PARAMS" || what == "#CP_PARAMS") select_frame_data(r, line);
+  if (what == "#CP_PARAMS" || what == "#CP_DAT") take_line_data(r);
   if (what == "#VEL_CP" || what == "#CP_PARAMS") {
     const auto speed = number_at(value, 0);
     set_krl_speed(r, speed && speed->span.end == value.size() ? speed->value : 0);

@@ -8,6 +8,7 @@
 
 #include "program/program_files.hpp"
 #include "program/robot/kuka/names.hpp"
+#include "program/robot/kuka/routines.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -84,50 +85,30 @@ bool read_target(std::string_view text, const RobotLine& line, Body& body) {
   return true;
 }
 
-/// The last name before the parameters: DEF NAME( ), DEFFCT INT NAME( ).
-std::string name_of_routine(std::string_view text, const RobotLine& line) {
-  Span last{};
-  for (std::size_t at = line.code.begin; at < line.code.end && text[at] != '(';) {
-    const Span name = name_at(text, at, line.code.end);
-    if (!empty(name)) last = name;
-    at = empty(name) ? at + 1 : name.end;
-  }
-  return krl_word(part(text, last));
-}
-
-/// Whether "NAME(" begins the statement: a call. BAS selects frames and speeds, but does not move the robot.
-bool is_call(std::string_view text, const RobotLine& line) {
-  constexpr auto no_calls =
-      std::to_array<std::string_view>({"BAS", "IF", "ELSEIF", "WHILE", "UNTIL", "SWITCH", "WAIT"});
-  const Span head = name_at(text, line.code.begin, line.code.end);
-  const std::size_t next = behind_blanks(text, head.end, line.code.end);
-  return next < line.code.end && text[next] == '(' && !is_among(krl_word(part(text, head)), no_calls);
-}
-
 /// The variable that a statement assigns, in upper case; empty for other statements.
 std::string assigned_variable(std::string_view text, const RobotLine& line) {
   const auto assignment = assignment_at(text, line.code.begin, line.code.end);
   return assignment ? krl_word(part(text, assignment->variable)) : "";
 }
 
-/// Whether a statement of another routine may move the robot or select another frame.
-bool moves_or_calls(std::string_view text, const RobotLine& line) {
-  const std::string variable = assigned_variable(text, line);
-  return is_among(head_of(text, line), all_motions) || is_call(text, line) || variable.starts_with("$BASE") ||
-         variable.starts_with("$TOOL");
+/// Whether a called routine leaves the robot, its frame and its tool. One of another file may do anything.
+bool leaves_robot(const KrlFacts& facts, const std::string& name) {
+  const KrlRoutine* const routine = facts.find(name);
+  if (routine == nullptr) return is_motionless_call(name);
+  return !routine->moves && !routine->selects_frame && !routine->selects_tool;
 }
 
-/// Whether a statement other than a motion leaves targets, frames and the robot's position as they are.
+/// Whether a statement other than a motion leaves targets, frames and the robot's position as they are. Calls
+/// are judged when the loop is known.
 bool is_harmless(std::string_view text, const RobotLine& line) {
   constexpr auto harmless = std::to_array<std::string_view>(
-      {"BAS", "WAIT", "TRIGGER", "IF", "ELSE", "ELSEIF", "ENDIF", "SWITCH", "CASE", "DEFAULT", "ENDSWITCH"});
+      {"WAIT", "TRIGGER", "IF", "ELSE", "ELSEIF", "ENDIF", "SWITCH", "CASE", "DEFAULT", "ENDSWITCH"});
   constexpr auto settings = std::to_array<std::string_view>({"$VEL", "$ACC", "$APO", "$OUT", "$ANOUT"});
   if (const std::string variable = assigned_variable(text, line); !variable.empty())
     return !variable.starts_with("$") ||
            std::any_of(settings.begin(), settings.end(),
                        [&](std::string_view name) { return variable.starts_with(name); });
-  if (is_call(text, line)) return !may_move(text, head_of(text, line));
-  return is_among(head_of(text, line), harmless);
+  return is_krl_call(text, line) || is_among(head_of(text, line), harmless) || may_repeat(text, line);
 }
 
 /// Refuses a statement that changes an element of the loop: its target is not the one of the data list.
@@ -166,10 +147,42 @@ void read_statement_of(std::string_view text, const std::string& file, const Rob
   if (name == "ENDIF" || name == "ENDSWITCH") --body.conditions;
   if (name == "IF" || name == "SWITCH") ++body.conditions;
   refuse_change(text, file, line, body);
-  body.loop.sets_speed = body.loop.sets_speed || is_call(text, line) || name == "BAS" ||
+  body.loop.sets_speed = body.loop.sets_speed || is_krl_call(text, line) || name == "BAS" ||
                          assigned_variable(text, line).starts_with("$VEL");
-  if (is_among(name, all_motions) ? !read_target(text, line, body) : !is_harmless(text, line))
+  const bool counts = assigned_variable(text, line) == body.counter;
+  if (counts || is_among(name, all_motions) ? counts || !read_target(text, line, body)
+                                            : !is_harmless(text, line))
     body.followed = false;
+}
+
+/// Whether a statement uses the counter for more than the element of this pass, NAME[counter].
+bool uses_counter(std::string_view text, const RobotLine& line, const Body& body) {
+  for (std::size_t at = line.code.begin; at < line.code.end;) {
+    const Span variable = variable_at(text, at, line.code.end), name = name_at(text, at, line.code.end);
+    const auto element = indexed(part(text, variable));
+    const bool is_element = element && element->name == body.loop.array && element->index == body.counter;
+    if (!empty(name) && krl_word(part(text, name)) == body.counter) return true;
+    at = is_element ? variable.end : empty(name) ? at + 1 : name.end;
+  }
+  return false;
+}
+
+/// Judges the statements of the loop beside its motion, whose array and routines are known now.
+void judge_statements(std::string_view text, const KrlFacts& facts, const RobotLine& first, Body& body) {
+  KrlLoop& loop = body.loop;
+  if (facts.changed_in(body.counter) > 0) body.followed = false;
+  RobotLine line = first;
+  while (next_robot_line(text, krl_comment, line) && line.line_end.end < loop.end) {
+    if (empty(line.code) || line.line == loop.motion.line) continue;
+    const bool calls = is_krl_call(text, line);
+    const KrlRoutine* const routine = calls ? facts.find(head_of(text, line)) : nullptr;
+    if (calls && !leaves_robot(facts, head_of(text, line))) body.followed = false;
+    const bool repeats = calls ? routine != nullptr && !routine->acts : may_repeat(text, line);
+    loop.acts = loop.acts || !repeats || uses_counter(text, line, body);
+    const std::string variable = assigned_variable(text, line);
+    if (!variable.empty()) loop.assigned.push_back(variable);
+    loop.sets_zone = loop.sets_zone || calls || head_of(text, line) == "BAS" || variable.starts_with("$APO");
+  }
 }
 
 }  // namespace
@@ -202,25 +215,11 @@ std::optional<KrlLoop> loop_over_array(std::string_view text, const std::string&
   }
   body.loop.end = inside.line_end.end;
   if (!body.followed || body.loop.array.empty()) return std::nullopt;
+  judge_statements(text, krl_facts_of(text), line, body);
+  if (!body.followed) return std::nullopt;
   const std::string_view statements = text.substr(line.span.begin, body.loop.end - line.span.begin);
   const bool elsewhere = uses_of_array(text, body.loop.array) != uses_of_array(statements, body.loop.array);
   return elsewhere ? std::nullopt : std::optional(body.loop);
-}
-
-bool may_move(std::string_view text, std::string_view routine) {
-  RobotLine line;
-  bool inside = false;
-  while (next_robot_line(text, krl_comment, line)) {
-    if (part(text, line.span).starts_with(file_mark)) return true;
-    if (empty(line.code)) continue;
-    const std::string head = head_of(text, line);
-    if (inside && (begins_routine(text, line) || head == "END" || head == "ENDFCT")) return false;
-    if (begins_routine(text, line))
-      inside = name_of_routine(text, line) == routine;
-    else if (inside && moves_or_calls(text, line))
-      return true;
-  }
-  return true;
 }
 
 }  // namespace counterflex

@@ -7,6 +7,7 @@
 #include <optional>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "counterflex/files/file_reader.hpp"
 #include "program/robot/kuka/lex.hpp"
@@ -20,7 +21,11 @@ struct KrlLoop {
   long first = 0, last = 0;
   Span last_number;         ///< of `last`
   bool sets_speed = false;  ///< a statement may change the speed
-  std::size_t end = 0;      ///< byte behind the line of ENDFOR
+  bool sets_zone = false;   ///< a statement may change $APO
+  /// More passes would do something else: a statement uses the counter, or acts once in each pass.
+  bool acts = false;
+  std::vector<std::string> assigned{};  ///< variables in upper case
+  std::size_t end = 0;                  ///< byte behind the line of ENDFOR
 };
 
 /// The loop whose FOR is in `line`, if it runs one linear motion for each element of an array and changes
@@ -68,10 +73,6 @@ using KrlArrays = std::map<std::string, KrlArray, std::less<>>;
 
 /// Adds the elements that `lines` assign.
 void add_elements(std::string_view lines, KrlArrays& arrays);
-
-/// Whether the routine with that name moves the robot, or may do so; false if `text` has a routine of that
-/// name without any motion before its data lists.
-bool may_move(std::string_view text, std::string_view routine);
 
 /// Counts the elements of an array on through the windows of a program: a target that was inserted has the
 /// index of the one behind it.

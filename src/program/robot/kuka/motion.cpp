@@ -106,11 +106,10 @@ std::optional<KrlAggregate> aggregate_of(const KrlReading& r, const RobotLine& l
   const RobotReading& robot = r.robot;
   const std::string_view name = part(robot.program.text, operand.span);
   if (auto aggregate = named_aggregate(r, krl_word(name))) return aggregate;
-  const auto found = r.named.find(krl_word(name));
   if (in_body(r) && has_variable_index(name)) return std::nullopt;
-  if (found != r.named.end() && found->second.computed_in)
+  if (const auto changed = computed_in(r, krl_word(name)))
     throw InputError(
-        ErrorKind::program_text, {robot.program.file, *found->second.computed_in, 1},
+        ErrorKind::program_text, {robot.program.file, *changed, 1},
         fmt::format("the target '{}' of {} in line {} is computed at run time; write its numbers "
                     "into the statement: {} {{X 1, Y 2, Z 3, A 0, B 0, C 0}}",
                     name, head, line.line, head));
@@ -118,6 +117,15 @@ std::optional<KrlAggregate> aggregate_of(const KrlReading& r, const RobotLine& l
          fmt::format("the target '{}' of {} is neither in this file nor in a data list; give the list that "
                      "has it with --data FILE.dat",
                      name, head));
+}
+
+/// Refuses a motion whose tool is not known.
+void need_tool(const KrlReading& r, const RobotLine& line) {
+  if (r.lost_tool == 0) return;
+  refuse(r.robot.program.file, line, line.code.begin,
+         fmt::format("the tool of this motion is not known: line {} selects it in a loop, a condition or a "
+                     "routine, or its data are computed; select it in front of this motion",
+                     r.lost_tool));
 }
 
 constexpr std::string_view run_time = "the target is computed at run time";
@@ -144,12 +152,14 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
   if (why.empty() && !target) why = run_time;
   if (in_body(r)) why = in_a_body;
   const bool states_turns = aggregate && find_component(*aggregate, "T") != nullptr;
-  if (why.empty())
+  if (why.empty()) {
+    need_tool(r, line);
     return add_target_move(
         r.robot, line, *target,
         with_zone(r, statement,
                   {.motion = Motion::rapid,
                    .stated_turns = states_turns ? StatedTurns::signs : StatedTurns::none}));
+  }
   const bool is_sure = aggregate && head == "PTP" && !in_body(r);
   // A routine that was called may have changed a named target.
   const bool is_known = is_sure && (statement.operands.front().aggregate || !r.has_called);
@@ -183,6 +193,7 @@ void read_line(KrlReading& r, const RobotLine& line, std::string_view head,
     why = "LIN_REL turns the tool or moves along its axes";
   if (in_body(r)) why = in_a_body;
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
+  need_tool(r, line);
   add_target_move(r.robot, line, *target, with_zone(r, statement, {.relative = relative}));
 }
 
@@ -215,6 +226,7 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
       "the circle of CIRC is not known: its start is not, or a number of its points is missing, or they lie "
       "on "
       "a line";
+  need_tool(r, line);
   Move move = begin_robot_move(r.robot, line, Motion::feed);
   if (!all_known(move.known_start)) return add_unfollowed_move(r.robot, line, std::string(unknown_circle));
   end_at_target(r.robot, *targets[1], with_zone(r, statement, {}), move);

@@ -33,10 +33,6 @@ constexpr auto motionless = std::to_array<std::string_view>(
     {"ELSE",   "ELSEIF", "CASE",     "DEFAULT", "WAIT",   "HALT",   "INTERRUPT", "TRIGGER",
      "RETURN", "EXIT",   "CONTINUE", "BRAKE",   "RESUME", "EXT",    "EXTFCT",    "IMPORT",
      "SIGNAL", "STRUC",  "ENUM",     "ANIN",    "ANOUT",  "GLOBAL", "CONST"});
-/// Functions of the control that do not move the robot.
-constexpr auto motionless_calls =
-    std::to_array<std::string_view>({"PULSE", "CWRITE", "CREAD", "SREAD", "SWRITE", "COPEN", "CCLOSE",
-                                     "CIOCTL", "CAST_TO", "CAST_FROM", "VARSTATE", "MSG"});
 
 constexpr auto coordinates = std::to_array<std::string_view>(
     {"X", "Y", "Z", "A", "B", "C", "A1", "A2", "A3", "A4", "A5", "A6", "E1", "E2", "E3", "E4", "E5", "E6"});
@@ -57,7 +53,8 @@ void assign_variable(KrlReading& r, const RobotLine& line, const std::string& va
   }
   const auto aggregate = aggregate_at(r.robot.program.text, value.begin, value.end);
   const bool is_target = aggregate && aggregate->span.end == value.end && krl_target(*aggregate);
-  const bool known = r.named.contains(variable);
+  const bool known =
+      r.named.contains(variable) || variable.starts_with("BASE_DATA[") || variable.starts_with("TOOL_DATA[");
   if (is_target && !in_body(r))
     r.named.insert_or_assign(variable, KrlNamed{aggregate->span, {}});
   else if (is_target || known)
@@ -87,12 +84,6 @@ void assign_zone(KrlReading& r, Span value) {
   r.zone_mm = is_plain && !in_body(r) ? number->value : 0;
 }
 
-/// $ORI_TYPE: only #VAR turns the tool from the orientation of one target to that of the next.
-void assign_orientation_type(KrlReading& r, std::string_view type) {
-  r.why_not_followed =
-      type == "#VAR" && !in_body(r) ? "" : fmt::format("the control turns the tool by $ORI_TYPE={}", type);
-}
-
 void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& assignment) {
   const std::string_view text = r.robot.program.text;
   const std::string variable = krl_word(part(text, assignment.variable));
@@ -106,9 +97,10 @@ void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& 
     r.turns_with_path = value != "#BASE" || in_body(r);
     return;
   }
-  if (variable == "$ORI_TYPE") return assign_orientation_type(r, value);
-  if (variable == "FDAT_ACT") {
-    r.frame_data = part(text, assignment.value);
+  if (variable == "$ORI_TYPE") return set_krl_orientation_type(r, value);
+  if (variable == "FDAT_ACT" || variable == "LDAT_ACT") {
+    std::string& data = variable == "FDAT_ACT" ? r.frame_data : r.line_data;
+    data = in_body(r) ? variable : part(text, assignment.value);
     return;
   }
   if (variable == "$IPO_MODE" && value == "#TCP")
@@ -134,16 +126,22 @@ void begin_or_end(KrlReading& r) {
   if (r.data_lists) read_names_of_lists(r);
 }
 
-/// A call may run any statement.
+/// A call may run any statement of a routine of another file.
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.zone_mm = 0;
-  if (is_one_of(krl_word(name), motionless_calls)) return;
+  if (is_motionless_call(krl_word(name))) return;
+  const KrlRoutine* const routine = r.facts.find(krl_word(name));
   r.has_called = true;
-  if (r.data_lists && !may_move(r.robot.program.text, krl_word(name))) return;
+  if (routine != nullptr && routine->selects_tool) r.lost_tool = line.line;
+  if (routine != nullptr && routine->selects_frame) forget_krl_base(r, line);
+  if (routine != nullptr && !routine->moves) return;
   forget_position(r.robot);
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
-  note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+  if (routine == nullptr || !routine->cuts)
+    return note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+  note_uncorrected(r.robot, line, fmt::format("'{}' is not followed: its motions are not corrected", name));
+  r.robot.program.left_alone.back().feeds = true;
 }
 
 void read_other(KrlReading& r, const RobotLine& line, Span head) {
@@ -160,6 +158,11 @@ void read_other(KrlReading& r, const RobotLine& line, Span head) {
 }
 
 }  // namespace
+
+void set_krl_orientation_type(KrlReading& r, std::string_view type) {
+  r.why_not_followed =
+      type == "#VAR" && !in_body(r) ? "" : fmt::format("the control turns the tool by $ORI_TYPE={}", type);
+}
 
 void set_krl_speed(KrlReading& r, double metres_per_second) {
   constexpr double mm_min = 60'000;  // in 1 m/s

@@ -6,6 +6,7 @@
 
 #include "program/robot/kuka/lex.hpp"
 #include "program/robot/kuka/loops.hpp"
+#include "program/robot/kuka/routines.hpp"
 #include "program/robot/reading.hpp"
 
 namespace counterflex {
@@ -28,14 +29,17 @@ struct KrlReading {
   bool begun = false;                                    ///< DEF was read
   std::map<std::string, KrlNamed, std::less<>> named{};  ///< by name in upper case
   std::string tool{};                                    ///< right side of the last $TOOL
-  std::string frame_data{};                              ///< right side of the last FDAT_ACT
-  bool turns_with_path = false;                          ///< $CIRC_TYPE=#PATH
-  double zone_mm = 0;                                    ///< $APO.CDIS, of C_DIS; 0: not known
+  int lost_tool = 0;                ///< line behind which the tool is not known; 0: it is
+  std::string frame_data{};         ///< right side of the last FDAT_ACT
+  std::string line_data{};          ///< right side of the last LDAT_ACT
+  bool turns_with_path = false;     ///< $CIRC_TYPE=#PATH
+  double zone_mm = 0;               ///< $APO.CDIS, of C_DIS; 0: not known
   std::string why_not_followed{};   ///< why linear moves are not followed; empty if they are
   const bool data_lists = false;    ///< they follow the program
   const bool list_follows = false;  ///< the list follows the loop that uses it
   std::optional<KrlFollowedLoop> followed{};
   const KrlArrays& arrays;       ///< of the data lists
+  const KrlFacts& facts;         ///< of the whole file
   std::vector<KrlLoop> loops{};  ///< over elements of these arrays
   std::size_t behind_loop = 0;   ///< the statements before this byte are those of a loop
   bool routine_ended = false;
@@ -58,6 +62,9 @@ void read_krl_motion(KrlReading& reading, const RobotLine& line, std::string_vie
 /// not in the text, or computed at run time.
 std::optional<KrlAggregate> named_aggregate(const KrlReading& reading, std::string_view name);
 
+/// The line that makes the value of a variable one of run time; empty if the text gives it.
+std::optional<int> computed_in(const KrlReading& reading, std::string_view variable);
+
 /// Reads the names that the data lists give, before the statements that use them.
 void read_names_of_lists(KrlReading& reading);
 
@@ -72,11 +79,17 @@ void read_data_line(KrlReading& reading, const RobotLine& line);
 void assign_krl_base(KrlReading& reading, const RobotLine& line, Span value);
 void assign_krl_tool(KrlReading& reading, const RobotLine& line, Span value);
 
+/// The pose of $BASE is not known from here on.
+void forget_krl_base(KrlReading& reading, const RobotLine& line);
+
 /// BAS(#BASE, 3) and other calls of the package that selects frames and speeds. `at`: the byte behind BAS.
 void read_krl_bas(KrlReading& reading, const RobotLine& line, std::size_t at);
 
 /// The target of an aggregate: A B C are angles about Z, Y, X. Empty if a component is not a plain number.
 std::optional<RobotTarget> krl_target(const KrlAggregate& aggregate);
+
+/// $ORI_TYPE: only #VAR turns the tool from the orientation of one target to that of the next.
+void set_krl_orientation_type(KrlReading& reading, std::string_view type);
 
 /// The speed of linear moves from here on; 0 if it is not known.
 void set_krl_speed(KrlReading& reading, double metres_per_second);

@@ -16,7 +16,8 @@ KukaReader::KukaReader(const std::string& file, const ReadOptions& options, cons
       krl_{.robot = reading(),
            .data_lists = this->outline().data_lists && !this->outline().list_follows_loop,
            .list_follows = this->outline().list_follows_loop,
-           .arrays = this->outline().arrays} {}
+           .arrays = this->outline().arrays,
+           .facts = this->outline().krl} {}
 
 /// The lines of each file have their own numbers.
 bool KukaReader::next_line(RobotLine& line) const {

@@ -132,6 +132,43 @@ TEST_CASE("a loop that cannot be followed is refused or not corrected") {
             .find("is not a target of plain numbers") != std::string::npos);
 }
 
+TEST_CASE("no target is inserted into a loop whose statements would do something else in more passes") {
+  const auto divides = [](const std::string& statement) {
+    const Program program =
+        read_joined(replaced(loop_program, "  LIN POINTS", "  " + statement + "\n  LIN POINTS"), loop_list);
+    REQUIRE(program.moves.size() == 3);
+    return program.moves[2].may_split;
+  };
+  CHECK(divides("BAS(#VEL_CP,0.5)"));
+  CHECK(divides("$VEL.CP=POINTS[n].f"));
+  CHECK_FALSE(divides("$VEL.CP=SPEEDS[n]"));
+  CHECK_FALSE(divides("IF n==2 THEN\n$VEL.CP=1\nENDIF"));
+  CHECK_FALSE(divides("$OUT[8]=TRUE"));
+  CHECK_FALSE(divides("TRIGGER WHEN DISTANCE=1 DELAY=0 DO $OUT[8]=TRUE"));
+  CHECK_FALSE(divides("count=count+1"));
+  CHECK(read_joined(replaced(loop_program, "ENDFOR", "n=n+1\nENDFOR"), loop_list).moves[0].fixed[0]);
+  CHECK(read_joined(replaced(loop_program, "ENDFOR", "BAS(#BASE,5)\nENDFOR"), loop_list).moves[0].fixed[0]);
+  CHECK(read_joined(replaced(loop_program, "ENDFOR", "next(n)\nENDFOR"), loop_list).moves[0].fixed[0]);
+}
+
+TEST_CASE("motion parameters of a data list give base, tool and the turn of the tool") {
+  const std::string program =
+      "DEF job()\nFDAT_ACT=FP1\nLDAT_ACT=LCPDAT1\nBAS(#CP_PARAMS,0.05)\nLIN XP1\nLDAT_ACT=LCPDAT2\n"
+      "BAS(#CP_PARAMS,0.05)\nLIN XP1\nEND\n";
+  const Program read = read_joined(program,
+                                   "DEFDAT job\n"
+                                   "DECL E6POS XP1={X 0,Y 0,Z 5,A 0,B 0,C 180,S 2,T 10}\n"
+                                   "DECL FDAT FP1={TOOL_NO 3,BASE_NO 4,IPO_FRAME #BASE,POINT2[] \" \"}\n"
+                                   "DECL LDAT LCPDAT1={VEL 2.0,ACC 100.0,APO_DIST 1.0,ORI_TYP #VAR}\n"
+                                   "DECL LDAT LCPDAT2={VEL 2.0,ACC 100.0,APO_DIST 1.0,ORI_TYP #CONSTANT}\n"
+                                   "ENDDAT\n");
+  REQUIRE(read.moves.size() == 2);
+  CHECK(read.frames[read.moves[0].frame].work_offset == "BASE_DATA[4]");
+  CHECK(read.moves[0].tool == 3);
+  CHECK_FALSE(read.moves[0].fixed[0]);
+  CHECK(read.moves[1].fixed[0]);  // the control keeps the orientation
+}
+
 TEST_CASE("an array that other statements use is not corrected") {
   const std::string program = replaced(loop_program, "ENDFOR\n", "ENDFOR\nLIN POINTS[2].at\n");
   const Program read = read_joined(program, loop_list);

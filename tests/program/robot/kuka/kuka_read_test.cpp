@@ -190,7 +190,7 @@ TEST_CASE("bases, tools and speeds of KRL and of BAS are followed") {
   CHECK(program.moves[2].tool == 7);
   CHECK(program.moves[2].feed_mm_min == 120000);
   CHECK(!program.moves[2].known_start[0]);
-  CHECK(frame(3).work_offset == "$BASE");
+  CHECK(frame(3).work_offset == "$BASE of line 12");
   CHECK(!frame(3).pose_mm);
   CHECK(!program.moves[3].known_start[0]);
   CHECK(program.moves[3].feed_mm_min == 0);
@@ -223,6 +223,73 @@ TEST_CASE("what is computed at run time is left alone or refused with its line")
       "that has it with --data FILE.dat");
   CHECK(refusal_of("FOR i=1 TO 9\nP[i].A=-30\nLIN P[i]\nENDFOR\n")
             .starts_with("job.src:3:1: error: 'P[i].A' is computed at run time"));
+}
+
+TEST_CASE("a frame that a condition, a routine or an expression gives is not known") {
+  const auto frame_behind = [](const std::string& statements, const std::string& routines) {
+    const Program program = read_krl("DEF job()\nBAS(#BASE,4)\n" + statements +
+                                     "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\nEND\n" + routines);
+    REQUIRE(!program.moves.empty());
+    return program.frames[program.moves.back().frame].work_offset;
+  };
+  CHECK(frame_behind("IF x THEN\nBAS(#BASE,5)\nENDIF\n", "") == "$BASE of line 4");
+  CHECK(frame_behind("IF x THEN\nBAS(#BASE,4)\nENDIF\n", "") == "BASE_DATA[4]");
+  CHECK(frame_behind("frames()\n", "DEF frames()\nBAS(#BASE,5)\nEND\n") == "$BASE of line 3");
+  CHECK(frame_behind("first()\n", "DEF first()\nsecond()\nEND\nDEF second()\n$BASE=BASE_DATA[1]\nEND\n") ==
+        "$BASE of line 3");
+  CHECK(frame_behind("speed()\n", "DEF speed()\nBAS(#VEL_CP,0.5)\nEND\n") == "BASE_DATA[4]");
+  CHECK(frame_behind("$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 2,Y 0,Z 0,A 0,B 0,C 0}\n", "") == "$BASE of line 3");
+  CHECK(frame_behind("BASE_DATA[5]=BASE_DATA[6]\n$BASE=BASE_DATA[5]\n", "") == "$BASE of line 4");
+  CHECK(frame_behind("BASE_DATA[5].X=BASE_DATA[5].X+1\nBAS(#BASE,5)\n", "") == "$BASE of line 4");
+  CHECK(frame_behind("BASE_DATA[n]=other\nBAS(#BASE,5)\n", "") == "$BASE of line 4");
+  CHECK(frame_behind("BAS(#BASE,5)\n", "DEF set()\nBASE_DATA[5].Z=2\nEND\n") == "$BASE of line 3");
+}
+
+TEST_CASE("a motion whose tool is not known is refused with the line that selects it") {
+  const std::string motion = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  CHECK(refusal_of("BAS(#TOOL,1)\nIF x THEN\nBAS(#TOOL,2)\nENDIF\n" + motion)
+            .starts_with("job.src:6:1: error: the tool of this motion is not known: line 4 selects it"));
+  CHECK(refusal_of("BAS(#TOOL,1)\nIF x THEN\nBAS(#TOOL,1)\nENDIF\n" + motion) == "none");
+  CHECK(refusal_of("IF x THEN\nBAS(#TOOL,2)\nENDIF\nBAS(#TOOL,1)\n" + motion) == "none");
+  CHECK(refusal_of("TOOL_DATA[2].Z=x\nBAS(#TOOL,2)\n" + motion).starts_with("job.src:4:1: error: the tool"));
+  CHECK(diagnostic_of([&] {
+          read_krl("DEF job()\nhead()\n" + motion + "END\nDEF head()\n$TOOL=TOOL_DATA[2]\nEND\n");
+        }).starts_with("job.src:3:1: error: the tool of this motion is not known: line 2 selects it"));
+}
+
+TEST_CASE("a target that a routine, an argument or a computed index may change is computed at run time") {
+  const auto refusal = [](const std::string& statements, const std::string& routines) {
+    return diagnostic_of([&] {
+      read_krl("DEF job()\nP[1]={X 5,Y 0,Z 0,A 0,B 0,C 0}\n" + statements + "LIN P[1]\nEND\n" + routines);
+    });
+  };
+  const std::string why = ": error: the target 'P[1]' of LIN in line 4 is computed at run time";
+  CHECK(refusal("deeper()\n", "DEF deeper()\nP[1].Z=P[1].Z-2\nEND\n").starts_with("job.src:7:1" + why));
+  CHECK(refusal("lower(P[1],2)\n", "").starts_with("job.src:3:1" + why));
+  CHECK(refusal("ok=lower(P[],2)\n", "DEFFCT BOOL lower(t:OUT,d:IN)\nENDFCT\n")
+            .starts_with("job.src:3:1" + why));
+  CHECK(refusal("P[n].Z=0\n", "").starts_with("job.src:3:1" + why));
+  CHECK(refusal("show(P[1],2)\n", "DEF show(t:IN,d:IN)\nt.Z=0\nEND\n") == "none");
+  CHECK(refusal("other()\n", "DEF other()\nDECL POS P[2]\nP[1].Z=0\nEND\n") == "none");
+  CHECK(refusal("other()\n", "DEF other()\nP[2].Z=0\nEND\n") == "none");
+}
+
+TEST_CASE("a routine of the file without motions leaves the position, and one that cuts is a feed move") {
+  const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  const auto read = [&](const std::string& routines) {
+    return read_krl("DEF job()\n" + line + "part()\n" + line + "END\n" + routines);
+  };
+  const Program quiet = read("DEF part()\n$OUT[7]=TRUE\nWAIT SEC 0.5\nEND\n");
+  CHECK(quiet.left_alone.empty());
+  CHECK(all_known(quiet.moves[1].known_start));
+  const Program cuts = read("DEF part()\ninner()\nEND\nDEF inner()\n" + line + "END\n");
+  REQUIRE(cuts.left_alone.size() == 1);
+  CHECK(cuts.left_alone[0].feeds);
+  CHECK(cuts.left_alone[0].why == "'part' is not followed: its motions are not corrected");
+  CHECK_FALSE(all_known(cuts.moves[1].known_start));
+  const Program unknown = read("");
+  REQUIRE(unknown.left_alone.size() == 1);
+  CHECK_FALSE(unknown.left_alone[0].feeds);
 }
 
 TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
