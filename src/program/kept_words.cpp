@@ -79,6 +79,10 @@ bool are_alike(const std::string& a, const std::string& b) {
   return std::string_view(a).substr(0, mark_a) == std::string_view(b).substr(0, mark_b);
 }
 
+bool is_first_piece(const Move& move, const std::string& words) {
+  return move.motion == Motion::feed && !changes_height_inside(move) && (move.sets_force || !is_plain(words));
+}
+
 bool is_plain(const std::string& words) {
   for (std::size_t i = 0; i < words.size() && words[i] != ';'; ++i) {
     const char c = upper(words[i]);

@@ -19,12 +19,6 @@ namespace {
 constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
 constexpr double nearer_mm = 1e-9;
 
-// A feed block whose words act at its beginning is itself the first piece: the others follow it.
-bool acts_first(const Move& original, const std::string& words) {
-  return original.motion == Motion::feed && !changes_height_inside(original) &&
-         (original.sets_force || !is_plain(words));
-}
-
 // The pieces of a robot's statement are copies of it.
 bool are_copies(const CorrectedMove& found) {
   return is_robot_dialect(found.program->dialect);
@@ -33,14 +27,14 @@ bool are_copies(const CorrectedMove& found) {
 bool may_end(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != original.motion) return false;
   if (are_copies(found)) return are_alike(found.words, words);
-  return j > 0 && acts_first(original, words) ? is_plain(found.words) : found.words == words;
+  return j > 0 && is_first_piece(original, words) ? is_plain(found.words) : found.words == words;
 }
 
 // Whether another piece of the same move may follow.
 bool may_go_on(const Move& original, const std::string& words, const CorrectedMove& found, std::size_t j) {
   if (found.move->motion != Motion::feed && !(original.may_position && j == 0)) return false;
   if (are_copies(found)) return are_alike(found.words, words);
-  return j == 0 && acts_first(original, words) ? found.words == words : is_plain(found.words);
+  return j == 0 && is_first_piece(original, words) ? found.words == words : is_plain(found.words);
 }
 
 std::size_t most_moves(const Move& original, bool has_segment) {

@@ -203,6 +203,7 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   r.corner = block.corner;
   r.angle = block.angle;
+  r.own_feed = block.own_feed;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
   if (has_other_codes(r.sorted)) {

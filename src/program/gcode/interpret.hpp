@@ -34,6 +34,7 @@ struct Reading {
   const Outline& outline;
   ModalState state{};
   SortedBlock sorted{};
+  bool own_feed = false;                 ///< of the block, as in Block
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block only; overrides the modal state
   /// X=IC(5) beside Y5: a bit for each axis whose word is a difference from the start.
   std::uint8_t relative_axes = 0;

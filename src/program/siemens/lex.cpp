@@ -109,6 +109,7 @@ void skip_harmless(Scanner& s, std::string_view name) {
   if (is_word(name, "DEFINE") || is_word(name, "EXTERN") || is_word(name, "PROC") ||
       is_word(name.substr(0, 4), "GOTO") || is_word(name, "CASE"))
     return skip_siemens_rest(s);
+  s.block.own_feed = s.block.own_feed || is_word(name, "FB");
   s.at += name.size();
   s.skip_blanks();
   if (s.peek() == '(' || s.peek() == '[') skip_siemens_value(s), s.skip_blanks();
@@ -128,7 +129,8 @@ bool moves_to_machine_position(const Block& block) {
 /// Letters of words with a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=".
 void skip_numbered_assignment(Scanner& s, std::string_view name) {
   const char letter = upper(name[0]);
-  if (letter != 'R' && may_move(letter) && !moves_to_machine_position(s.block))
+  if (letter != 'R' && may_move(letter) && s.block.statement != Statement::curve &&
+      !moves_to_machine_position(s.block))
     return state(s, Statement::call);
   s.block.assigns = true;
   const std::size_t begin = s.at;

@@ -58,7 +58,7 @@ constexpr std::array harmless_names{
     "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",     "ADIS",     "ADISPOS",
     "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",  "RTLIOF",   "DEF",
     "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",    "GOTOF",    "GOTOB",
-    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC",
+    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC", "FNORM",
 };
 
 constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF", "WHILE",   "ENDWHILE",

@@ -69,6 +69,7 @@ struct Block {
   bool part_name = false;            ///< the line is the name of a program
   bool assigns = false;              ///< has '#1=', "R1="
   bool assigns_by_name = false;      ///< "_DEPTH=5", "MEAS=1": a variable or an unknown word
+  bool own_feed = false;             ///< FB=: its feed acts in this block alone
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing is behind its name
   Span statement_text;             ///< of a call, from its name to the comment

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cassert>
 
+#include "counterflex/program/kept_words.hpp"
 #include "program/text/integer_words.hpp"
 #include "program/write/numbers.hpp"
 #include "program/write/words.hpp"
@@ -29,7 +30,8 @@ Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   if (edit.jump) plan.stops.push_back({*edit.jump, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
   plan.stops.push_back({{edit.end_mm, edit.centre_mm, edit.orientation}, motion});
-  const bool first = o.is_first_piece && o.move.motion == Motion::feed && !o.block.corner;
+  const bool first =
+      plan.stops.size() > 1 && !o.block.corner && is_first_piece(o.move, kept_words(o.program, o.move));
   plan.own = first ? 0 : plan.stops.size() - 1;
   return plan;
 }

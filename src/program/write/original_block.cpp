@@ -58,27 +58,6 @@ std::string separator_of(const Original& o, const std::string& otherwise) {
   return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
 }
 
-/// A jump to the label of a Sinumerik block runs the whole move.
-bool begins_with_label(const Original& o) {
-  if (!o.dialect.sinumerik_words) return false;
-  const auto first = std::find_if(o.block.words.begin(), o.block.words.end(),
-                                  [](const Word& word) { return word.letter != 'N'; });
-  if (first == o.block.words.end()) return false;
-  return o.text({o.block.span.begin, first->span.begin}).find(':') != std::string_view::npos;
-}
-
-/// Whether the block has words other than those of the move, F and N, begins with a label, or sets the force.
-/// These act at its beginning.
-bool is_first_piece(const Original& o) {
-  const bool arc = o.move.arc.has_value();
-  return o.move.sets_force || begins_with_label(o) ||
-         std::any_of(o.block.words.begin(), o.block.words.end(), [&](const Word& word) {
-           return !is_axis(word) && !(o.move.orientation && is_angle(word)) && !is_motion(word) &&
-                  word.letter != 'F' && word.letter != 'N' &&
-                  !(arc && (is_centre(word) || word.letter == 'P'));
-         });
-}
-
 /// `number` of a G0 to G3 changed to `motion`, with its leading zero.
 std::string motion_number(std::string_view number, int motion) {
   const bool two_digits = number.size() == 2 && number.front() == '0';
@@ -99,7 +78,6 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
   o.separator = separator_of(o, style.separator);
   const Word* shown = word_that_shows_style(o.block);
   o.lower_case = shown != nullptr && is_lower(program.text[shown->span.begin]);
-  o.is_first_piece = is_first_piece(o);
   return o;
 }
 

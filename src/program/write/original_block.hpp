@@ -23,8 +23,6 @@ struct Original {
   std::string separator{};
   std::string line_end{};
   bool lower_case = false;
-  /// It has words other than motion, axes, centre, F and N: it is its own first piece.
-  bool is_first_piece = false;
 
   std::string_view text(Span span) const { return part(program.text, span); }
 };

@@ -109,6 +109,22 @@ TEST_CASE("under G93 the pieces of a block take its time") {
     CHECK(refused(across).find("min here, in the original 0.1 min") != std::string::npos);
 }
 
+TEST_CASE("a split block is the first of its pieces with any word that acts at its beginning") {
+  for (const std::string word : {"SPOS=90", "MSG(\"CUT\")", "R5=3", "M3=5", "H3", "OVR=50", "STOPRE", "M8"}) {
+    CAPTURE(word);
+    const Shop shop({.machine = load_machine(small_mill),
+                     .text = "G71 G90 G54 F500\nG0 X0 Y0 Z0\nG1 X250 " + word + "\nG1 Y250\nM30\n",
+                     .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n", 2e-3),
+                     .read = {.dialect = "siemens"}});
+    const Compensation result = compensated(shop);
+    REQUIRE(result.counts.inserted_blocks > 0);
+    const Program again = read_program(result.text, "c.mpf", {.dialect = "siemens"});
+    CHECK(!verify(shop.job(), again, false).failure);
+    const std::size_t first = result.text.find("G1"), second = result.text.find("G1", first + 1);
+    CHECK(result.text.find(word) < second);
+  }
+}
+
 TEST_CASE("a block whose comment sets the force is the first piece of its move") {
   for (const std::string text :
        {"G21 G90 G54 F500\nG0 X0 Y0 Z0\nG1 X40 (FORCE FX=100 FY=0 FZ=50)\nG1 X80\nM2\n",

@@ -157,7 +157,19 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   CHECK(fixed_after("AGAIN: G1 X5 F100\nIF R1<5 GOTOB AGAIN\n"));
   CHECK(fixed_after("CIP X5 Y5 I1=3 J1=3\n"));
   CHECK(fixed_after("G1 X5 B30 F100\n"));
-  CHECK(siemens(std::string(siemens_start) + "L100\n").left_alone.at(0).why == "a subprogram is called");
+  const auto why = [](const std::string& lines) {
+    return siemens(std::string(siemens_start) + lines).left_alone.at(0).why;
+  };
+  CHECK(why("L100\n") == "a subprogram is called");
+  CHECK(why("N10 SUB1\n") == "a subprogram is called");
+  CHECK(why("G1 X5 FLIN F100\n") == "'FLIN' is not supported");
+  CHECK(why("RNDM=2\n") == "'RNDM' is not supported");
+  CHECK_FALSE(fixed_after("G1 X5 FNORM F100\n"));
+  const Program own_feed = siemens(std::string(siemens_start) + "G1 X5 F100\nX20 FB=20\nX30\n");
+  const std::size_t n = own_feed.moves.size();
+  CHECK(own_feed.moves[n - 3].may_split);
+  CHECK_FALSE(own_feed.moves[n - 2].may_split);  // FB= acts in this block alone
+  CHECK(own_feed.moves[n - 1].may_split);
 }
 
 TEST_CASE("siemens: ANG= gives the coordinate of a line that has no word for it") {

@@ -2,10 +2,14 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "program/expand/expand.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/siemens/names.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 
@@ -88,6 +92,21 @@ void read_pocket(const Block& block, Reading& r) {
   finish_move(r, move);
 }
 
+namespace {
+
+/// A word of Sinumerik that is not read: "AP" beside other words or as the position of an axis. Empty for the
+/// call of a subprogram.
+std::string_view word_not_read(const Block& block, const Reading& r) {
+  const std::string_view text = part(r.program.text, block.statement_text);
+  const std::size_t size = std::find_if_not(text.begin(), text.end(), is_identifier_character) - text.begin();
+  const std::string_view name = text.substr(0, size);
+  const bool beside_words =
+      std::any_of(block.words.begin(), block.words.end(), [](const Word& w) { return w.letter != 'N'; });
+  return is_position_name(name) || beside_words ? name : std::string_view();
+}
+
+}  // namespace
+
 void read_call(const Block& block, Reading& r) {
   r.variables.clear();
   Move& move = start_move(block, r, Motion::rapid);
@@ -97,11 +116,14 @@ void read_call(const Block& block, Reading& r) {
   if (!why.empty()) why = ", not expanded: " + why;
   if (!r.options.expand_subprograms && may_expand(r.dialect))
     why = " (--expand-subprograms replaces the call by its text)";
-  note_uncorrected(block, r, "a subprogram is called" + why);
+  const std::string_view word = word_not_read(block, r);
+  note_uncorrected(
+      block, r, word.empty() ? "a subprogram is called" + why : fmt::format("'{}' is not supported", word));
   finish_move(r, move);
   end_contour(r);
   r.state.unknown_modes |=
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
+  if (!word.empty()) return;
   add_remark(r.program, block.line,
              "assumed: subprograms do not change the unit, the work offset, the tool length and G40 to G42");
 }

@@ -53,17 +53,17 @@ void allow_changes(const Reading& r, Move& move) {
                            b.has(MAction::retract) || b.has(MAction::machine);
   const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own ||
                      any_axis(move.fixed) || move.cycle.has_value();
-  // Pieces of a G93 move need a share of its time.
-  const bool shares_time = move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0;
+  // Pieces of a G93 move need a share of its time. Pieces would not have the feed of the block alone.
+  const bool shares_feed = !r.own_feed && (move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0);
   // Inserted words and blocks are read in the modal state.
   const bool has_own_modes = r.relative() != r.state.relative;
   // The control shortens both blocks of a corner. The corner is in one plane.
   const bool corner = r.corner || r.after_corner;
   move.may_insert_words = move.may_insert_words && !tool_length && !any_axis(move.fixed) && !has_own_modes;
   move.may_split =
-      feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_time;
+      feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_feed;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
-  move.stays_whole = rigid || !shares_time || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW");
+  move.stays_whole = rigid || !shares_feed || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW");
   move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
                   !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }

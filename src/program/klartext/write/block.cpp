@@ -8,6 +8,7 @@
 #include <utility>
 
 #include "counterflex/files/text.hpp"
+#include "counterflex/program/kept_words.hpp"
 #include "program/dialect.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/number_style.hpp"
@@ -62,11 +63,6 @@ Vector3 own_pole_mm(const Move& move, const TextPosition& position) {
     if (!move.arc->absolute_centre && position[axis])
       pole[static_cast<Eigen::Index>(axis)] += *position[axis] - component(move.start_mm, axis);
   return pole;
-}
-
-/// Whether a word of the block acts at its beginning, so that no piece may be inserted before it.
-bool is_first_piece(const KlartextBlockWriter& w) {
-  return w.move.sets_force || find_word(w.words, "M") != nullptr || find_word(w.words, "MB") != nullptr;
 }
 
 std::string klartext_word(const KlartextBlockWriter& w, std::size_t axis, const WordNumber& number) {
@@ -338,7 +334,7 @@ std::vector<KlartextStop> stops_of(const Move& move, const MoveEdit& edit) {
 
 void write_edit(KlartextBlockWriter& w, const MoveEdit& edit) {
   const std::vector<KlartextStop> stops = stops_of(w.move, edit);
-  const bool own_first = stops.size() > 1 && w.move.motion == Motion::feed && is_first_piece(w);
+  const bool own_first = stops.size() > 1 && is_first_piece(w.move, kept_words(w.program, w.move));
   const std::size_t own = own_first ? 0 : stops.size() - 1;
   const bool has_pole = has_own_pole(w.move);
   if (has_pole) w.state.pole.centre_mm = own_pole_mm(w.move, w.state.position);
