@@ -1,5 +1,6 @@
 #pragma once
 /// Waypoints that are solved at once, each from a start of its own.
+#include <memory>
 #include <optional>
 
 #include "statics/kernel/cells/expansion.hpp"
@@ -53,6 +54,8 @@ struct Problem {
 
   /// The machine whose results are given out.
   const FlatMachine& machine() const { return *(real ? real : nominal)->machine; }
+
+  bool operator==(const Problem&) const = default;
 };
 
 /// Waypoints and their solutions, number after number. Of the waypoints, what a problem does not use may be
@@ -90,6 +93,9 @@ struct Batch {
   std::vector<double> responses;
 
   int count() const { return static_cast<int>(p.size() / 3); }
+
+  /// Takes all waypoints and wishes out. The memory stays.
+  void clear();
 };
 
 /// Which stress the first tangent has. Later ones have what the last linear step predicted: with the stress
@@ -102,9 +108,17 @@ struct Schedule {
   FirstStress first = FirstStress::none;
 };
 
+/// What the solves of one problem by one instance work on.
+struct Memory {
+  Memory() = default;
+  Memory(const Memory&) = delete;
+  virtual ~Memory() = default;
+};
+
 /// The kernel for one kind of numbers. It solves a batch whose solutions have their sizes.
 struct Instance {
-  void (*solve)(const Problem&, const Schedule&, Batch&);
+  std::unique_ptr<Memory> (*memory_of)(const Problem&);
+  void (*solve)(Memory&, const Schedule&, Batch&);
   int lanes;
 };
 
@@ -112,7 +126,22 @@ struct Instance {
 extern const Instance scalar_instance;
 std::vector<Instance> all_instances();
 
-/// Solves a batch by one of them, or else by the fastest one for its size.
-void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by = nullptr);
+/// Solves batches of a few problems, one after the other, in memory that it keeps for each of them.
+class Solver {
+ public:
+  /// Solves a batch by that instance, or else by the fastest one for its size. What `problem` refers to
+  /// outlives the solver. The solutions do not depend on what was solved before.
+  void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by = nullptr);
+
+ private:
+  struct Kept {
+    Problem problem;
+    const Instance* instance;
+    std::unique_ptr<Memory> memory;
+  };
+  Memory& memory_of(const Problem& problem, const Instance& instance);
+
+  std::vector<Kept> kept_;
+};
 
 }  // namespace counterflex::kernel

@@ -29,8 +29,9 @@ inline std::vector<Phase> phases_of(const Problem& problem) {
 /// What one solve of a problem works on. Without the nominal machine actuators are held; without the real one
 /// the problem is one of kinematics.
 template <class T>
-struct Coupled {
-  const Problem& problem;
+struct Coupled final : Memory {
+  const Problem problem;
+  const std::vector<Phase> phases = phases_of(problem);
   Work<T> real, nominal;
   Phase phase{};
   // Each controlled component of the real or of the nominal tip, as actuators move it: an LU decomposition
@@ -47,9 +48,7 @@ struct Coupled {
     if (problem.nominal) nominal.question = *problem.nominal;
     const std::size_t n = real.machine.actuator_joint.size();
     lu.resize(n * n), swaps.resize(n * n);
-    begin({problem.real.has_value(), problem.nominal.has_value(), problem.nominal.has_value()});
   }
-  Coupled(const Coupled&) = delete;
 
   void begin(const Phase& next) {
     phase = next;

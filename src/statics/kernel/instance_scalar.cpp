@@ -2,6 +2,6 @@
 
 namespace counterflex::kernel {
 
-const Instance scalar_instance{solve_batch<double>, 1};
+const Instance scalar_instance{memory_of<double>, solve_batch<double>, 1};
 
 }  // namespace counterflex::kernel

@@ -16,8 +16,22 @@ std::vector<Instance> all_instances() {
   return instances;
 }
 
+void Batch::clear() {
+  for (std::vector<double>* const numbers : {&p, &R, &F, &rho, &lag, &start, &nominal_start})
+    numbers->clear();
+  cells.clear(), nominal_cells.clear();
+  wants_states = wants_pivots = false;
+  response_to.reset();
+}
+
+Memory& Solver::memory_of(const Problem& problem, const Instance& instance) {
+  for (const Kept& kept : kept_)
+    if (kept.instance == &instance && kept.problem == problem) return *kept.memory;
+  return *kept_.emplace_back(Kept{problem, &instance, instance.memory_of(problem)}).memory;
+}
+
 // Sizes are set here: the vectors of an instance must have no code for instructions that a computer lacks.
-void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by) {
+void Solver::solve(const Problem& problem, const Schedule& schedule, Batch& batch, const Instance* by) {
   static const Instance widest = all_instances().back();
   const FlatMachine& machine = problem.machine();
   const auto count = static_cast<std::size_t>(batch.count());
@@ -36,7 +50,8 @@ void solve(const Problem& problem, const Schedule& schedule, Batch& batch, const
   size(batch.pivots, batch.wants_pivots, unknowns);
   const std::size_t variables = batch.response_to ? static_cast<std::size_t>(batch.response_to->count()) : 0;
   size(batch.responses, variables > 0, variables * (unknowns + (problem.real ? 6 : 0)));
-  (by != nullptr ? *by : count == 1 ? scalar_instance : widest).solve(problem, schedule, batch);
+  const Instance& instance = by != nullptr ? *by : count == 1 ? scalar_instance : widest;
+  instance.solve(memory_of(problem, instance), schedule, batch);
 }
 
 }  // namespace counterflex::kernel

@@ -66,8 +66,8 @@ void put_waypoints(const Batch& batch, int first, Work<T>& work) {
   for (int l = 0; l < lane_count<T>; ++l) {
     const int w = waypoint_of(batch, first, l);
     for (int i = 0; i < 3; ++i) lane(work.origin[i], l) = at(batch.p, 3 * w + i);
-    for (int i = 0; i < 6 && !batch.F.empty(); ++i) lane(work.load[i], l) = at(batch.F, 6 * w + i);
-    for (int i = 0; i < 9 && !batch.R.empty(); ++i) lane(work.wanted_R.c[i], l) = at(batch.R, 9 * w + i);
+    for (int i = 0; i < 6; ++i) lane(work.load[i], l) = batch.F.empty() ? 0 : at(batch.F, 6 * w + i);
+    for (int i = 0; i < 9; ++i) lane(work.wanted_R.c[i], l) = batch.R.empty() ? 0 : at(batch.R, 9 * w + i);
   }
 }
 
@@ -197,8 +197,9 @@ void get_responses(Batch& batch, int first, Coupled<T>& coupled) {
 
 /// Solves the phases of the problem one after the other; the lanes that are accepted in all of them.
 template <class T>
-Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedule, const Batch& batch,
-                       int first, Coupled<T>& coupled, Mask<T>& is_stiff) {
+Solved<T> solve_phases(const Schedule& schedule, const Batch& batch, int first, Coupled<T>& coupled,
+                       Mask<T>& is_stiff) {
+  const std::vector<Phase>& phases = coupled.phases;
   Solved<T> solved{is_stiff, {}, {}};
   for (std::size_t k = 0; k < phases.size(); ++k) {
     coupled.begin(phases[k]);
@@ -221,11 +222,17 @@ Solved<T> solve_phases(const std::vector<Phase>& phases, const Schedule& schedul
 }
 
 template <class T>
-void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch) {
+std::unique_ptr<Memory> memory_of(const Problem& problem) {
+  return std::make_unique<Coupled<T>>(problem);
+}
+
+/// `memory`: a Coupled<T>.
+template <class T>
+void solve_batch(Memory& memory, const Schedule& schedule, Batch& batch) {
+  auto& coupled = static_cast<Coupled<T>&>(memory);
+  const Problem& problem = coupled.problem;
   const FlatMachine& machine = problem.machine();
-  Coupled<T> coupled(problem);
-  const Phase whole = coupled.phase;
-  const std::vector<Phase> phases = phases_of(problem);
+  const Phase whole{problem.real.has_value(), problem.nominal.has_value(), problem.nominal.has_value()};
   const int actuators = static_cast<int>(machine.actuator_joint.size());
   for (int first = 0; first < batch.count(); first += lane_count<T>) {
     coupled.begin(whole);
@@ -238,10 +245,10 @@ void solve_batch(const Problem& problem, const Schedule& schedule, Batch& batch)
     if (!has_cells && problem.nominal) put_states(batch, first, batch.nominal_start, coupled.nominal);
     if (!problem.nominal)
       put_held_actuators(batch, first, coupled.real);
-    else if (phases.front().real && phases.front().nominal)
+    else if (coupled.phases.front().real && coupled.phases.front().nominal)
       copy_actuators(coupled.nominal, coupled.real);
     Mask<T> is_stiff = first_work.origin[0] == first_work.origin[0];
-    const Solved<T> solved = solve_phases(phases, schedule, batch, first, coupled, is_stiff);
+    const Solved<T> solved = solve_phases(schedule, batch, first, coupled, is_stiff);
     coupled.begin(whole);
     for (int l = 0; l < lane_count<T> && first + l < batch.count(); ++l) {
       const int w = first + l;

@@ -52,6 +52,7 @@ struct BatchSolver::Impl {
   };
 
   StartTable::Impl& table;
+  kernel::Solver solver;
   kernel::Batch batch;
   std::vector<std::size_t> asked;  ///< requests that have cells
   std::vector<Cells> cells;
@@ -80,7 +81,7 @@ struct BatchSolver::Impl {
     return place.turn.isZero(0) ? table.R_home : Matrix3(exp_so3(place.turn) * table.R_home);
   }
 
-  void begin() { batch = {}, asked.clear(), cells.clear(); }
+  void begin() { batch.clear(), asked.clear(), cells.clear(); }
 
   void add(const TurnedPlace& place, const kernel::StartCell& nominal_cell) {
     append(place.p, batch.p);
@@ -119,7 +120,7 @@ struct BatchSolver::Impl {
   }
 
   void solve_kinematics() {
-    kernel::solve({.real = {}, .nominal = table.nominal()}, kernel::cell_schedule, batch);
+    solver.solve({.real = {}, .nominal = table.nominal()}, kernel::cell_schedule, batch);
   }
 
   /// Nominal kinematics of the places that have cells. A place of which `is_known(i, cell)` is left out.
@@ -145,7 +146,7 @@ struct BatchSolver::Impl {
     if (batch.rho.empty()) problem.nominal = table.nominal();
     for (std::size_t j = 0; j < 6; ++j)
       problem.of_command[j] = is_forward || (question == BatchQuestion::target && j >= 3);
-    kernel::solve(problem, kernel::cell_schedule, batch);
+    solver.solve(problem, kernel::cell_schedule, batch);
     for (std::size_t i = 0; i < asked.size(); ++i) {
       BatchAnswer& answer = answers[asked[i]];
       answer.solved =

@@ -78,7 +78,7 @@ struct FlatBench {
 
   KernelAnswers solve(const kernel::Problem& problem, const std::vector<KernelWaypoint>& waypoints,
                       const kernel::Instance& instance = kernel::scalar_instance,
-                      const kernel::Schedule& schedule = {}) const {
+                      const kernel::Schedule& schedule = {}, kernel::Solver* solver = nullptr) const {
     kernel::Batch batch;
     for (const KernelWaypoint& w : waypoints) {
       for (int i = 0; i < 3; ++i) batch.p.push_back(w.X_MT.p[i]);
@@ -93,7 +93,8 @@ struct FlatBench {
       batch.nominal_start.insert(batch.nominal_start.end(), w.nominal_start.begin(), w.nominal_start.end());
     }
     batch.wants_states = batch.wants_pivots = true;
-    kernel::solve(problem, schedule, batch, &instance);
+    kernel::Solver own;
+    (solver != nullptr ? *solver : own).solve(problem, schedule, batch, &instance);
     return {std::move(batch), problem.machine().rigid_closures};
   }
 };

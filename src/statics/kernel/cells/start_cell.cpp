@@ -76,7 +76,7 @@ std::optional<Batch> solve_samples(const Problem& problem, const CellPlace& plac
     for (int i = 0; i < 9; ++i) batch.R.push_back(turned(i / 3, i % 3));
   }
   batch.wants_states = true, batch.wants_pivots = batch.response_to.has_value();
-  solve(problem, batch.cells.empty() ? Schedule{} : cell_schedule, batch);
+  Solver().solve(problem, batch.cells.empty() ? Schedule{} : cell_schedule, batch);
   if (std::ranges::count(batch.accepted, 0) > 0) return std::nullopt;
   return batch;
 }

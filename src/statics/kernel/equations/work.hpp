@@ -18,6 +18,8 @@ struct Question {
   const std::vector<Transform>* transforms = nullptr;
   double load = 1, preload = 1, gravity = 1;  ///< how much of them acts
   double errors = 1;                          ///< and of the errors of motion
+
+  bool operator==(const Question&) const = default;
 };
 
 /// The kinematics of a rigid machine without errors, of which `transforms` are.
