@@ -71,6 +71,25 @@ void count_uses(std::string_view text, const RobotLine& line, TpFile& found) {
   }
 }
 
+/// Whether a statement sets UFRAME[n], also under a condition, and n if it is a number.
+bool sets_frame(std::string_view statement, std::optional<long>& number) {
+  constexpr std::string_view name = "UFRAME[";
+  const std::size_t at = statement.rfind(name);
+  if (at == std::string_view::npos || statement.find("]=", at) == std::string_view::npos) return false;
+  const auto index = tp_integer(statement, at + name.size());
+  if (index && statement.substr(index->end).starts_with("]=")) number = index->value;
+  return true;
+}
+
+/// What a label needs from the statements around it.
+void add_flow(std::string_view text, const RobotLine& line, TpFile& found) {
+  if (part(text, line.code).starts_with("//")) return;  // is not executed
+  const std::string statement = tp_word(part(text, line.code));
+  if (std::optional<long> number; sets_frame(statement, number)) found.frames[number] = line.line;
+  const std::size_t label = statement.find("LBL[");
+  if (found.first_jump == 0 && label != std::string::npos && label > 0) found.first_jump = line.line;
+}
+
 /// The numbers of the lines. A line without a number is not counted.
 struct Numbering {
   long last = 0;
@@ -115,6 +134,7 @@ TpFile tp_file(const std::string& file, std::string_view text) {
     } else {
       numbering.add(text, line);
       count_uses(text, line, found);
+      add_flow(text, line, found);
     }
   }
   found.numbered = numbering.in_order && numbering.last > 0;

@@ -63,6 +63,15 @@ std::optional<Pose> pose_of_register(const TpReading& r, std::string_view value)
   return pose;
 }
 
+void forget_frame(TpReading& r, std::optional<long> number, int line) {
+  if (number) {
+    r.frames[*number] = {.line = line};
+  } else {
+    r.frames.clear();
+    r.any_frame_in = line;
+  }
+}
+
 /// Another value of the frame may be another place.
 void assign_frame(TpReading& r, const RobotLine& line, std::string_view statement) {
   const auto target = indexed(statement, "UFRAME[");
@@ -70,11 +79,41 @@ void assign_frame(TpReading& r, const RobotLine& line, std::string_view statemen
   const auto pose = plain ? pose_of_register(r, target->behind.substr(2)) : std::nullopt;
   forget_position(r.robot);
   r.robot.state.moved_by_machine = true;
-  if (!plain) r.frames.clear();
-  if (pose) r.frames.insert_or_assign(target->number, *pose);
-  if (pose) return;
-  if (plain) r.frames.erase(target->number);
+  if (pose) {
+    r.frames[target->number] = {.pose_mm = pose};
+    return;
+  }
+  forget_frame(r, plain ? std::optional(target->number) : std::nullopt, line.line);
   note_uncorrected(r.robot, line, "UFRAME is computed at run time: its pose is not known");
+}
+
+/// Selects a frame by UFRAME_NUM; empty for an unknown one.
+void select_frame(TpReading& r, std::optional<long> number) {
+  r.frame = number;
+  r.selects_no_frame = false;
+}
+
+/// Another value of a tool moves its centre.
+void assign_tool(TpReading& r) {
+  r.last_tool.reset();
+  enter_robot_tool(r.robot, 0);
+}
+
+/// $MNUFRAMENUM[1], $MNUFRAME[1,2], $MNUTOOLNUM[1], ...: false for other variables of the control.
+bool assign_variable(TpReading& r, const RobotLine& line, std::string_view statement) {
+  const std::string_view variable = statement.substr(0, statement.find('='));
+  const auto contains = [&](std::string_view name) { return variable.find(name) != std::string_view::npos; };
+  if (contains("UFRAMENUM"))
+    select_frame(r, std::nullopt);
+  else if (contains("UFRAME"))
+    assign_frame(r, line, statement);
+  else if (contains("UTOOLNUM"))
+    r.tool.reset();
+  else if (contains("UTOOL"))
+    assign_tool(r);
+  else
+    return false;
+  return true;
 }
 
 }  // namespace
@@ -83,27 +122,56 @@ bool read_tp_assignment(TpReading& r, const RobotLine& line, const std::string& 
   constexpr std::string_view frame_number = "UFRAME_NUM=", tool_number = "UTOOL_NUM=";
   const std::string_view text = statement;
   if (text.starts_with(frame_number)) {
-    r.frame = selected(r, text.substr(frame_number.size()));
+    select_frame(r, selected(r, text.substr(frame_number.size())));
   } else if (text.starts_with(tool_number)) {
     r.tool = selected(r, text.substr(tool_number.size()));
   } else if (text.starts_with("UFRAME[")) {
     assign_frame(r, line, text);
   } else if (text.starts_with("UTOOL[")) {
-    r.last_tool.reset();
-    enter_robot_tool(r.robot, 0);
+    assign_tool(r);
   } else if (text.starts_with("PR[")) {
     assign_register(r, text);
+  } else if (text.starts_with("$")) {
+    return assign_variable(r, line, text);
   } else {
     return false;
   }
   return true;
 }
 
-ProgramFrame tp_frame(const TpReading& r, long number) {
-  ProgramFrame frame{.work_offset = fmt::format("UF {}", number)};
-  if (number == 0) frame.pose_mm = Pose{};  // the world frame
-  if (const auto found = r.frames.find(number); found != r.frames.end()) frame.pose_mm = found->second;
+ProgramFrame tp_frame(const TpReading& r, std::optional<long> number) {
+  if (!number) number = r.frame;
+  if (!number) return {};
+  ProgramFrame frame{.work_offset = fmt::format("UF {}", *number)};
+  const auto found = r.frames.find(*number);
+  if (*number == 0)
+    frame.pose_mm = Pose{};  // the world frame
+  else if (found != r.frames.end())
+    frame.pose_mm = found->second.pose_mm;
   return frame;
+}
+
+std::string why_unknown_frame(const TpReading& r, std::optional<long> number) {
+  if (!number) number = r.frame;
+  if (!number && r.selects_no_frame) return {};
+  if (!number)
+    return "UF : F is the selected frame, which is not known; program UFRAME_NUM=1 or another number before "
+           "the motion, behind calls and labels";
+  const auto found = r.frames.find(*number);
+  if (*number == 0 || (found != r.frames.end() && found->second.pose_mm)) return {};
+  const int line = found != r.frames.end() ? found->second.line : r.any_frame_in;
+  return line > 0 ? fmt::format("UFRAME[{}] may be set at run time in line {}", *number, line) : "";
+}
+
+void forget_tp_frames(TpReading& r, int line) {
+  for (auto& entry : r.frames)
+    if (entry.second.pose_mm) entry.second = {.line = line};
+}
+
+void forget_tp_frames_at_label(TpReading& r, int line) {
+  const int jump = r.file.first_jump;
+  for (const auto& [number, last] : r.file.frames)
+    if (last > line || (jump > 0 && jump < last)) forget_frame(r, number, last);
 }
 
 }  // namespace counterflex

@@ -51,15 +51,29 @@ std::string_view shown(const TpReading& r, const RobotLine& line) {
 
 void read_call(TpReading& r, const RobotLine& line) {
   forget_tp_state(r);
+  forget_tp_frames(r, line.line);
   note_uncorrected(r.robot, line, fmt::format("'{}' may move the robot", shown(r, line)));
+}
+
+/// Position behind the last comma of "IF R[1]=2,PR[1,2]=5" that is outside of brackets.
+std::size_t behind_condition(std::string_view statement) {
+  std::size_t behind = 0;
+  int depth = 0;
+  for (std::size_t at = 0; at < statement.size(); ++at) {
+    const char c = statement[at];
+    if (c == '[' || c == '(') ++depth;
+    if (c == ']' || c == ')') --depth;
+    if (c == ',' && depth == 0) behind = at + 1;
+  }
+  return behind;
 }
 
 /// A statement that runs under a condition: a jump, a call or an assignment.
 void read_conditional(TpReading& r, const RobotLine& line, const std::string& statement) {
   if (statement.find("CALL") != std::string::npos) return read_call(r, line);
-  if (statement.find("UFRAME") != std::string::npos) r.frame.reset();
-  if (statement.find("UTOOL") != std::string::npos) r.tool.reset();
-  if (statement.find("PR[") != std::string::npos) r.registers.clear();
+  ++r.robot.open_bodies;
+  read_tp_assignment(r, line, statement.substr(behind_condition(statement)));
+  --r.robot.open_bodies;
 }
 
 /// Loops and conditions; false for another statement.
@@ -90,7 +104,10 @@ void read_statement(TpReading& r, const RobotLine& line) {
   if (statement.starts_with("P["))
     refuse(r.robot.program.file, line, line.code.begin,
            "a position of /POS is computed at run time, which is not supported; write its numbers into /POS");
-  if (statement.starts_with("LBL[")) return forget_tp_state(r);  // a jump may lead to it
+  if (statement.starts_with("LBL[")) {  // a jump may lead to it
+    forget_tp_state(r);
+    return forget_tp_frames_at_label(r, line.line);
+  }
   if (read_tp_assignment(r, line, statement) || read_flow(r, line, statement)) return;
   if (!begins_with_any(statement, motionless)) read_call(r, line);
 }
@@ -122,6 +139,7 @@ void forget_tp_state(TpReading& r) {
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
   r.frame.reset();
+  r.selects_no_frame = false;
   r.tool.reset();
   r.registers.clear();
 }

@@ -81,9 +81,9 @@ void watch_other_groups(TpReading& r, const RobotLine& line, const TpPoint& poin
 
 /// Enters the frame and the tool of the target, and the speed.
 void enter(TpReading& r, const TpMotion& motion, const TpPoint& point) {
-  const std::optional<long> frame = point.frame ? point.frame : r.frame;
   const std::optional<long> tool = point.tool ? point.tool : r.tool;
-  enter_robot_frame(r.robot, frame ? tp_frame(r, *frame) : ProgramFrame{});
+  enter_robot_frame(r.robot, tp_frame(r, point.frame));
+  if (point.frame) r.selects_no_frame = false;  // the control stops here unless this frame is selected
   if (r.last_tool != tool) enter_robot_tool(r.robot, as_tool(tool.value_or(0)));
   r.last_tool = tool;
   r.robot.state.feed_mm_min = motion.feed_mm_min;
@@ -172,6 +172,8 @@ std::string why_not_followed(const TpReading& r, const TpMotion& motion, const s
   for (std::size_t i = 0; i < points.size(); ++i)
     if (points[i].joint)
       return fmt::format("the target {} is in joint angles", part(text, motion.operands[i].span));
+  for (const TpPoint& point : points)
+    if (std::string why = why_unknown_frame(r, point.frame); !why.empty()) return why;
   if (!empty(motion.unknown))
     return fmt::format("the word '{}' is not supported", part(text, motion.unknown));
   if (motion.wrist_joint && motion.type != 'J') return "Wjnt does not control the orientation of the tool";

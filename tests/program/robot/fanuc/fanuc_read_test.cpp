@@ -118,7 +118,8 @@ TEST_CASE("C goes through its auxiliary point, also in a continuation line") {
 
 TEST_CASE("other layouts of a position: no blanks, other decimals, two groups, a comment, joint angles") {
   const Program program = read_tp_statements(
-      "L P[1:A B] 9mm/sec CNT10 ;\nL P[2]9mm/sec CNT10 ;\nL P[ 3 ] 9mm/sec CNT10 ;\nJ P[4] 10% FINE ;\n",
+      "UFRAME_NUM=1 ;\nL P[1:A B] 9mm/sec CNT10 ;\nL P[2]9mm/sec CNT10 ;\nL P[ 3 ] 9mm/sec CNT10 ;\n"
+      "J P[4] 10% FINE ;\n",
       "P[1:\"A B\"]{\r\n   GP1:\r\n UF:1,UT:2,CONFIG:'N U T, 0, 0, 0',X=1mm,Y=-.5mm,Z=+3. "
       "mm,W=0deg,P=0deg,R=0deg\r\n};\r\n"
       "P[2] { GP1: UF : F, UT : F, CONFIG: 'NUT000', X =\t4.0\tmm, Y = 5 mm, Z = 6 mm,\n"
@@ -134,7 +135,7 @@ TEST_CASE("other layouts of a position: no blanks, other decimals, two groups, a
   CHECK(program.moves[2].end_mm == Vector3(7, 8, 9));
   CHECK(!program.moves[2].may_split);  // another configuration
   REQUIRE(program.left_alone.size() == 1);
-  CHECK(program.left_alone[0].line == 9);
+  CHECK(program.left_alone[0].line == 10);
   CHECK(program.left_alone[0].why == "the target P[4] is in joint angles");
   CHECK(program.left_alone[0].machine_position);
 }
@@ -169,9 +170,82 @@ TEST_CASE("UF 0 is the world frame, and a frame that the program sets with numbe
   REQUIRE(own.pose_mm);
   CHECK((*own.pose_mm * Vector3(1, 0, 0) - Vector3(100, -4.5, 0)).norm() < 1e-12);
   CHECK(!program.moves[1].known_start[0]);  // another frame
-  const Program computed = read_tp_statements("UFRAME[9]=PR[3] ;\nL P[2] 9mm/sec FINE ;\n", positions);
-  CHECK(!computed.frames[computed.moves[0].frame].pose_mm);
-  CHECK(computed.left_alone[0].why == "UFRAME is computed at run time: its pose is not known");
+}
+
+TEST_CASE("a frame that the program may set at run time is not followed") {
+  const std::string positions = tp_position(1, {0, 0, 0, 0, 0, 0}, "", "UF : 8, UT : 1") +
+                                tp_position(2, {1, 0, 0, 0, 0, 0}, "", "UF : 9, UT : 1");
+  const std::string set =
+      "PR[9,1]=100 ;\nPR[9,2]=0 ;\nPR[9,3]=0 ;\nPR[9,4]=0 ;\nPR[9,5]=0 ;\nPR[9,6]=90 ;\n"
+      "UFRAME[9]=PR[9] ;\n";
+  const auto read = [&](const std::string& statements, const std::string& behind = "") {
+    return read_tp_statements(statements + "L P[1] 9mm/sec FINE ;\nL P[2] 9mm/sec FINE ;\n" + behind,
+                              positions);
+  };
+  for (const char* statement :
+       {"UFRAME[9]=PR[3] ;\n", "UFRAME[9]=UFRAME[1] ;\n", "IF R[1]=2,UFRAME[9]=PR[9] ;\n",
+        "IF (R[1]=2) THEN ;\nUFRAME[9]=PR[9] ;\nENDIF ;\n", "CALL SETUF(9,1) ;\n",
+        "PR[9]=LPOS ;\nUFRAME[9]=PR[9] ;\n"}) {
+    CAPTURE(statement);
+    const Program program = read(set + statement);
+    CHECK(!program.moves[0].fixed[0]);  // of another frame
+    CHECK(program.moves[1].fixed[0]);
+    CHECK(program.left_alone.back().why.starts_with("UFRAME[9] may be set at run time in line 1"));
+  }
+  for (const char* statement : {"UFRAME[R[1]]=PR[9] ;\n", "$MNUFRAME[1,R[1]]=PR[9] ;\n"}) {
+    CAPTURE(statement);
+    const Program program = read(set + statement);
+    CHECK(program.moves[0].fixed[0]);
+    CHECK(program.left_alone.back().why == "UFRAME[9] may be set at run time in line 13");
+  }
+  CHECK(!read(set + "UFRAME[8]=PR[1] ;\n").moves[1].fixed[0]);
+  CHECK(!read(set + "PR[1]=UFRAME[9] ;\nR[1]=1 ;\n").moves[1].fixed[0]);
+  CHECK(!read("CALL GRIP ;\n" + set).moves[1].fixed[0]);
+  // A jump may lead to the label from behind the assignment, or from before it.
+  CHECK(!read(set + "LBL[1] ;\n", "JMP LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(read(set + "LBL[1] ;\n", "UFRAME[9]=PR[2] ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(read("LBL[1] ;\n", "IF R[1]=2,UFRAME[9]=PR[2] ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(read("LBL[1] ;\n", "UFRAME[R[2]]=PR[2] ;\nJMP LBL[1] ;\n").moves[0].fixed[0]);
+  CHECK(read("IF R[1]=3,JMP LBL[1] ;\n" + set + "LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(!read("IF R[1]=3,JMP LBL[1] ;\n" + set).moves[1].fixed[0]);
+}
+
+TEST_CASE("a tool that the program sets under a condition makes the position unknown") {
+  const Program program =
+      read_tp_statements("L P[1] 9mm/sec CNT50 ;\nIF R[1]=2,UTOOL[2]=PR[2] ;\nL P[2] 9mm/sec CNT50 ;\n");
+  CHECK(!program.moves[1].known_start[0]);
+}
+
+TEST_CASE(
+    "UF F is the selected frame: the world frame before any selection, else not followed where unknown") {
+  const std::string positions = tp_position(1, {0, 0, 0, 0, 0, 0}, "", "UF : 1, UT : 1") +
+                                tp_position(2, {1, 0, 0, 0, 0, 0}, "", "UF : F, UT : F") +
+                                tp_position(3, {2, 2, 0, 0, 0, 0}, "", "UF : F, UT : F");
+  const auto frame_of = [&](const std::string& before) -> std::string {
+    const Program program = read_tp_statements(
+        before + "J P[2] 9% FINE ;\nL P[2] 9mm/sec FINE ;\nC P[3] P[2] 9mm/sec FINE ;\n", positions);
+    if (program.moves.front().motion == Motion::rapid)
+      return "'" + program.frames[program.moves.front().frame].work_offset + "'";
+    CHECK(program.moves.back().fixed[0]);
+    return program.left_alone.back().why;
+  };
+  const std::string unknown =
+      "UF : F is the selected frame, which is not known; program UFRAME_NUM=1 or another number before the "
+      "motion, behind calls and labels";
+  CHECK(frame_of("") == "''");
+  CHECK(frame_of("R[1]=2 ;\n") == "''");
+  CHECK(frame_of("UFRAME_NUM=3 ;\n") == "'UF 3'");
+  CHECK(frame_of("CALL GRIP ;\nUFRAME_NUM=3 ;\n") == "'UF 3'");
+  for (const char* before : {"CALL GRIP ;\n", "UFRAME_NUM=R[1] ;\n", "LBL[1] ;\n",
+                             "UFRAME_NUM=3 ;\nLBL[1] ;\n", "UFRAME_NUM=3 ;\nIF R[1]=2,UFRAME_NUM=1 ;\n",
+                             "UFRAME_NUM=3 ;\nGRIP ;\n", "UFRAME_NUM=3 ;\n$MNUFRAMENUM[1]=2 ;\n"}) {
+    CAPTURE(before);
+    CHECK(frame_of(before) == unknown);
+  }
+  // The control stops at P[1] unless another frame than the world frame is selected.
+  const Program numbered = read_tp_statements("J P[1] 9% FINE ;\nL P[2] 9mm/sec FINE ;\n", positions);
+  CHECK(numbered.moves[1].fixed[0]);
+  CHECK(numbered.left_alone.back().why == unknown);
 }
 
 TEST_CASE("the positions behind a label, a call and in a loop are not known") {
