@@ -6,6 +6,9 @@
 namespace counterflex {
 namespace {
 
+/// All but `writing_instructions` only read their arguments, apart from `options_with_result`: ABB, RAPID
+/// Instructions, Functions and Data types, 3HAC16581. Motions do not use the clocks, files and sockets that
+/// some of them change.
 constexpr auto motionless_instructions = std::to_array<std::string_view>({
     "ACCSET",        "ACTUNIT",      "ADD",
     "BITCLEAR",      "BITSET",       "BREAK",
@@ -37,6 +40,30 @@ constexpr auto motionless_instructions = std::to_array<std::string_view>({
     "WRITEBIN",      "WRITESTRBIN",
 });
 
+/// Motionless instructions that write an argument.
+constexpr auto writing_instructions =
+    std::to_array<std::string_view>({"ADD", "BITCLEAR", "BITSET", "CLEAR", "CONNECT", "DECR", "INCR"});
+
+/// Functions that only read their arguments. StrToVal, DefAccFrame and TestAndSet write one.
+constexpr auto reading_functions = std::to_array<std::string_view>(
+    {"ABS",       "ACOS",      "AINPUT",    "AOUTPUT",     "ASIN",           "ATAN",
+     "ATAN2",     "BITAND",    "BITCHECK",  "BITLSH",      "BITNEG",         "BITOR",
+     "BITRSH",    "BITXOR",    "BYTETOSTR", "CALCROBT",    "CDATE",          "CJOINTT",
+     "CLKREAD",   "COS",       "CPOS",      "CROBT",       "CSPEEDOVERRIDE", "CTIME",
+     "CTOOL",     "CWOBJ",     "DEFFRAME",  "DIM",         "DINPUT",         "DISTANCE",
+     "DNUMTONUM", "DNUMTOSTR", "DOTPROD",   "DOUTPUT",     "EULERZYX",       "EXP",
+     "FILESIZE",  "GETTIME",   "GINPUT",    "GINPUTDNUM",  "GOUTPUT",        "GOUTPUTDNUM",
+     "ISFILE",    "ISPERS",    "ISVAR",     "MAXROBSPEED", "MIRPOS",         "NORIENT",
+     "NUMTODNUM", "NUMTOSTR",  "OFFS",      "OPMODE",      "ORIENTZYX",      "OROBT",
+     "POSEINV",   "POSEMULT",  "POSEVECT",  "POW",         "PRESENT",        "RELTOOL",
+     "ROBOS",     "ROUND",     "RUNMODE",   "SIN",         "SQRT",           "STRFIND",
+     "STRLEN",    "STRMAP",    "STRMATCH",  "STRMEMB",     "STRORDER",       "STRPART",
+     "STRTOBYTE", "TAN",       "TESTDI",    "TRUNC",       "VALTOSTR",       "VECTMAGN"});
+
+/// The instructions write the variable of these options: "WaitDI start, 1\MaxTime:=5\TimeFlag:=late;".
+constexpr auto options_with_result =
+    std::to_array<std::string_view>({"BREAKFLAG", "DVALUEATTIMEOUT", "RESULT", "TIMEFLAG", "VALUEATTIMEOUT"});
+
 constexpr auto linear_instructions = std::to_array<std::string_view>(
     {"MOVELAO",   "MOVELDO",   "MOVELGO", "MOVELSYNC", "MOVECAO", "MOVECDO", "MOVECGO",
      "MOVECSYNC", "TRIGGL",    "TRIGGC",  "TRIGGLIOS", "SEARCHL", "SEARCHC", "ARCL",
@@ -47,10 +74,23 @@ constexpr auto joint_instructions =
     std::to_array<std::string_view>({"MOVEABSJ", "MOVEEXTJ", "MOVEJAO", "MOVEJDO", "MOVEJGO", "MOVEJSYNC",
                                      "TRIGGJ", "TRIGGABSJ", "SPOTJ", "SPOTMJ"});
 
+bool is_move(std::string_view name) {
+  return is_among(name, std::to_array<std::string_view>({"MOVEL", "MOVEJ", "MOVEC", "MOVEABSJ"}));
+}
+
 }  // namespace
 
 bool is_motionless_instruction(std::string_view name) {
   return is_among(name, motionless_instructions);
+}
+
+bool only_reads(std::string_view name) {
+  if (is_motionless_instruction(name)) return !is_among(name, writing_instructions);
+  return is_among(name, reading_functions) || is_move(name);
+}
+
+bool is_option_with_result(std::string_view name) {
+  return is_among(name, options_with_result);
 }
 
 bool is_linear_instruction(std::string_view name) {

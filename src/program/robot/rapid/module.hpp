@@ -22,6 +22,11 @@ struct RapidDatum {
   std::size_t uses = 0;  ///< number of tokens with its name, without its declaration
 };
 
+struct RapidRoutine {
+  bool writes_arguments = false;  ///< it has parameters with INOUT, VAR or PERS
+};
+using RapidRoutines = std::map<std::string, RapidRoutine, std::less<>>;  ///< by name in upper case
+
 class RapidModule {
  public:
   /// Adds the declaration, the parameters or the routine that `statement` begins.
@@ -37,7 +42,7 @@ class RapidModule {
   bool calls(std::string_view name) const { return calls_.contains(name); }
 
   /// Whether the module has a routine with that name in upper case.
-  bool has_routine(std::string_view name) const { return names_of_routines_.contains(name); }
+  bool has_routine(std::string_view name) const { return routines_.contains(name); }
 
  private:
   void add_uses(std::string_view text, const RapidStatement& statement, int line);
@@ -48,7 +53,7 @@ class RapidModule {
 
   std::map<std::string, RapidDatum, std::less<>> data_;  ///< by name in upper case and number of the routine
   std::set<std::string, std::less<>> calls_;
-  std::set<std::string, std::less<>> names_of_routines_;
+  RapidRoutines routines_;
   struct Section {
     std::size_t begin, routine;  ///< number of the routine from 1, 0: outside of routines
   };
@@ -73,6 +78,11 @@ bool rapid_depends_on_far_lines(std::string_view text);
 
 /// Instructions of the control that do not move the robot, by name in upper case.
 bool is_motionless_instruction(std::string_view name);
+
+/// Instructions and functions of the control that do not change their arguments. False for a name that is not
+/// known. Options with a result are changed by all instructions: see `is_option_with_result`.
+bool only_reads(std::string_view name);
+bool is_option_with_result(std::string_view name);
 
 /// Motions of the tool to a target, and of the joints.
 bool is_linear_instruction(std::string_view name);

@@ -49,6 +49,41 @@ TEST_CASE("what is computed at run time is not followed and is listed with its l
   CHECK(program.left_alone[1].why == "the target 'p3' is computed at run time in line 11");
 }
 
+TEST_CASE("an instruction or a function that writes its argument makes the value unknown") {
+  const std::string declarations =
+      "PERS robtarget p2:=" + target_at("1,2,3") + ";\nVAR robtarget p3:=" + target_at("1,2,3") +
+      ";\nVAR wobjdata w:=[FALSE,TRUE,\"\",[[0,0,0],[1,0,0,0]],[[0,0,0],[1,0,0,0]]];\n"
+      "FUNC bool lower(INOUT robtarget p,num d)\np.trans.z:=p.trans.z-d;\nRETURN TRUE;\nENDFUNC\n"
+      "FUNC num height(robtarget p)\nRETURN p.trans.z;\nENDFUNC\n"
+      "PROC show(robtarget p)\nTPWrite \"z\"\\Num:=p.trans.z;\nENDPROC\n";
+  const auto why = [&](const std::string& statement) {
+    const Program program =
+        read_rapid(module_of(declarations, "MoveL p2,v100,z1,tool0\\WObj:=w;\n" + statement));
+    REQUIRE(program.moves.size() == 1);
+    return program.moves[0].fixed[0] ? program.left_alone[0].why : "";
+  };
+  const std::string target = "the target 'p2' is computed at run time in line 17";
+  for (const char* statement :
+       {"Add p2.trans.z,-2;\n", "Incr p2.trans.x;\n", "Decr p2.trans.x;\n", "Clear p2.trans.x;\n",
+        "ok:=StrToVal(line,p2.trans.z);\n", "ok:=lower(p2,2);\n", "IF lower(p2,2) THEN\nENDIF\n",
+        "IF a AND lower(p2,2) SetDO do1,1;\n", "IF a IF b Incr p2.trans.x;\n",
+        "WHILE NOT(a OR lower(p2,2)) DO\nENDWHILE\n", "SetGO go1,Round(2+elsewhere(p2));\n",
+        "RETURN lower(p2,2);\n", "VAR bool ok:=lower(p2,2);\n", "WaitDI di1,1\\TimeFlag:=p2;\n",
+        "GetDataVal \"p3\",p2;\n"}) {
+    CAPTURE(statement);
+    CHECK(why(statement) == target);
+  }
+  CHECK(why("Add w.oframe.trans.y,660;\n") == "the work object 'w' is computed at run time in line 17");
+  for (const char* statement :
+       {"Add n,p3.trans.z;\n", "p3:=Offs(p2,0,0,5);\n", "d:=Distance(p2.trans,p3.trans);\n",
+        "n:=height(p2);\n", "show p2;\n",
+        "IF (p2.trans.z>5 OR (p2.trans.x>1)) AND (p2.trans.y>1) THEN\nENDIF\n",
+        "TPWrite \"z\"\\Num:=p2.trans.z;\n", "WaitTime\\InPos,p2.trans.z;\n", "SetDO do1,1;\n"}) {
+    CAPTURE(statement);
+    CHECK(why(statement) == "");
+  }
+}
+
 TEST_CASE("bodies, handlers and interrupts are not followed, calls make the position unknown") {
   const Program program = read_routine(
       "MoveJ <0,0,0>,v10,fine,tool0;\n"
@@ -141,6 +176,11 @@ TEST_CASE("a module with inline targets alone is read in windows, others as a wh
   CHECK(is_whole(module_of("", move + "x:=5;\n")));
   CHECK(is_whole(module_of("", "VAR speeddata s:=[1,2,3,4];\n" + move)));
   CHECK(is_whole(module_of("", "drill x;\n" + move)));
+  CHECK(is_whole(module_of("", "Incr x;\n" + move)));
+  CHECK(is_whole(module_of("", "IF drilled(x) THEN\nENDIF\n" + move)));
+  CHECK(is_whole(module_of("", "SetDataVal \"s\",5;\n" + move)));
+  CHECK(is_whole(module_of("", move + "ENDPROC\nFUNC num abs()\n")));
+  CHECK(!is_whole(module_of("", "IF TestDI(x) THEN\nWaitDI x,1\\MaxTime:=5;\nENDIF\n" + move)));
   CHECK(is_whole(module_of("VAR num x:=\n5;\n", move)));
   CHECK(is_whole(module_of("", move + "ENDPROC\nPROC two(num a)\n")));
 }
