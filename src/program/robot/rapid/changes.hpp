@@ -1,5 +1,5 @@
 #pragma once
-/// Which data the statements of ABB RAPID change.
+/// Which data the statements of ABB RAPID change, and which routines do not move the robot.
 #include "program/robot/rapid/module.hpp"
 
 namespace counterflex {
@@ -29,5 +29,18 @@ bool has_reference_parameters(std::string_view text, const RapidStatement& state
 /// module. Of "IF condition statement;" the condition is read alone.
 std::vector<Span> names_changed_by(std::string_view text, const RapidStatement& statement,
                                    const RapidRoutines& routines);
+
+/// Sets `still` of the routines of a module. Its statements are added in order.
+class StillRoutines {
+ public:
+  explicit StillRoutines(RapidRoutines& routines) : routines_(routines) {}
+  void add(std::string_view text, const RapidStatement& statement);
+  void finish();
+
+ private:
+  RapidRoutines& routines_;
+  std::string routine_;                                    ///< of the last statement
+  std::map<std::string, std::set<std::string>> called_{};  ///< by routine
+};
 
 }  // namespace counterflex

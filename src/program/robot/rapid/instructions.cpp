@@ -44,6 +44,10 @@ constexpr auto motionless_instructions = std::to_array<std::string_view>({
 constexpr auto writing_instructions =
     std::to_array<std::string_view>({"ADD", "BITCLEAR", "BITSET", "CLEAR", "CONNECT", "DECR", "INCR"});
 
+/// Instructions that set how later motions run.
+constexpr auto mode_instructions =
+    std::to_array<std::string_view>({"CIRPATHMODE", "CONFJ", "CONFL", "SINGAREA", "VELSET"});
+
 /// Functions that only read their arguments. StrToVal, DefAccFrame and TestAndSet write one.
 constexpr auto reading_functions = std::to_array<std::string_view>(
     {"ABS",       "ACOS",      "AINPUT",    "AOUTPUT",     "ASIN",           "ATAN",
@@ -82,6 +86,10 @@ bool is_move(std::string_view name) {
 
 bool is_motionless_instruction(std::string_view name) {
   return is_among(name, motionless_instructions);
+}
+
+bool is_mode_instruction(std::string_view name) {
+  return is_among(name, mode_instructions);
 }
 
 bool only_reads(std::string_view name) {

@@ -78,6 +78,11 @@ void RapidModule::add_changes(std::string_view text, const RapidStatement& state
     for (auto& entry : data_) change(entry.second);
 }
 
+bool RapidModule::has_still_routine(std::string_view name) const {
+  const auto found = routines_.find(name);
+  return found != routines_.end() && found->second.still;
+}
+
 void RapidModule::add_uses(std::string_view text, const RapidStatement& statement, int line) {
   const Span declared = rapid_declaration(text, statement).name;
   RapidStatement last = statement;
@@ -103,13 +108,16 @@ void RapidModule::scan(std::string_view text) {
   each_statement([&](const RapidStatement& statement) { declare(text, statement); });
   int line = 1;
   std::size_t counted = 0;
+  StillRoutines still(routines_);
   each_statement([&](const RapidStatement& statement) {
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(counted);
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(statement.span.begin);
     line += static_cast<int>(std::count(begin, end, '\n'));
     counted = statement.span.begin;
     add_uses(text, statement, line);
+    still.add(text, statement);
   });
+  still.finish();
 }
 
 void RapidScan::add(std::string_view lines) {

@@ -24,6 +24,7 @@ struct RapidDatum {
 
 struct RapidRoutine {
   bool writes_arguments = false;  ///< it has parameters with INOUT, VAR or PERS
+  bool still = false;             ///< it neither moves the robot nor sets how motions run
 };
 using RapidRoutines = std::map<std::string, RapidRoutine, std::less<>>;  ///< by name in upper case
 
@@ -43,6 +44,10 @@ class RapidModule {
 
   /// Whether the module has a routine with that name in upper case.
   bool has_routine(std::string_view name) const { return routines_.contains(name); }
+
+  /// Whether the module has a routine with that name in upper case that does not move the robot. False for a
+  /// module that was not scanned.
+  bool has_still_routine(std::string_view name) const;
 
  private:
   void add_uses(std::string_view text, const RapidStatement& statement, int line);
@@ -78,6 +83,9 @@ bool rapid_depends_on_far_lines(std::string_view text);
 
 /// Instructions of the control that do not move the robot, by name in upper case.
 bool is_motionless_instruction(std::string_view name);
+
+/// Instructions that set how the motions behind them run.
+bool is_mode_instruction(std::string_view name);
 
 /// Instructions and functions of the control that do not change their arguments. False for a name that is not
 /// known. Options with a result are changed by all instructions: see `is_option_with_result`.

@@ -86,6 +86,7 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
   if (is_linear_instruction(head))
     return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", name));
   if (is_motionless_instruction(head) && !r.module.has_routine(head)) return read_state(r, line, statement);
+  if (r.module.has_still_routine(head)) return;
   forget(r);
   r.any_configuration = r.any_joint_configuration = false;
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));

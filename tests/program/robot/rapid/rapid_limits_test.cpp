@@ -84,6 +84,34 @@ TEST_CASE("an instruction or a function that writes its argument makes the value
   }
 }
 
+TEST_CASE("a routine of the module that does not move the robot keeps its position") {
+  const std::string declarations =
+      "VAR robtarget p1:=" + target_at("1,2,3") + ";\nVAR robtarget p2:=" + target_at("4,5,6") +
+      ";\nPROC coolant()\nIF on THEN\nSetDO do1,1;\nELSE\nlubricate;\nENDIF\nWaitTime 0.5;\nENDPROC\n"
+      "PROC lubricate()\nSet do2;\nENDPROC\nPROC lower()\np2.trans.z:=2;\nENDPROC\n"
+      "PROC retract()\nIF on MoveJ p1,v100,fine,tool0;\nENDPROC\nPROC mode()\nConfL\\Off;\nENDPROC\n"
+      "PROC away()\nlubricate;\nretract;\nENDPROC\nPROC other()\n%\"retract\"%;\nENDPROC\n"
+      "FUNC num measure()\nretract;\nRETURN 1;\nENDFUNC\nPROC measured()\nn:=measure();\nENDPROC\n";
+  const auto behind = [&](const std::string& statement) {
+    const Program program = read_rapid(
+        module_of(declarations, "MoveJ p1,v100,fine,tool0;\n" + statement + "MoveL p1,v100,z1,tool0;\n"));
+    return program;
+  };
+  for (const char* statement : {"coolant;\n", "lubricate;\n", "IF on coolant;\n", "lower;\n"}) {
+    CAPTURE(statement);
+    CHECK(all_known(behind(statement).moves.back().known_start));
+  }
+  for (const char* statement :
+       {"retract;\n", "away;\n", "other;\n", "measured;\n", "mode;\n", "elsewhere;\n"}) {
+    CAPTURE(statement);
+    const Program program = behind(statement);
+    CHECK(!program.moves.back().known_start[0]);
+    CHECK(program.left_alone.back().why.ends_with("may move the robot"));
+  }
+  const Program lowered = behind("lower;\nMoveL p2,v100,z1,tool0;\n");
+  CHECK(lowered.left_alone.back().why == "the target 'p2' is computed at run time in line 16");
+}
+
 TEST_CASE("bodies, handlers and interrupts are not followed, calls make the position unknown") {
   const Program program = read_routine(
       "MoveJ <0,0,0>,v10,fine,tool0;\n"
