@@ -81,6 +81,13 @@ std::string why_no_chord(AptReading& r, const Move& move) {
   return "the points behind CIRCLE/ are too far from each other to be read as chords of the circle";
 }
 
+/// Why the control does not go to the points; empty if it does.
+std::string why_not_followed(const AptReading& r) {
+  if (r.in_cycle) return "the points are holes of CYCLE/, which is not supported";
+  if (r.in_cutcom) return "the control shifts the points by the tool's radius (CUTCOM/)";
+  return "";
+}
+
 }  // namespace
 
 std::optional<RobotNumber> apt_number(std::string_view text, Span parameter) {
@@ -93,7 +100,7 @@ void read_apt_point(AptReading& r, const RobotLine& line, const AptStatement& st
   r.robot.state.unit = unit_of(r, line);
   const Motion motion = std::exchange(r.rapid, false) ? Motion::rapid : Motion::feed;
   const auto target = target_of(r, statement);
-  std::string why = r.why_not_followed;
+  std::string why = why_not_followed(r);
   if (!target) why = why_no_target(statement);
   if (target && has_axis_of_no_length(*target)) why = "the tool axis has no direction: its numbers are 0";
   if (!why.empty()) {

@@ -146,13 +146,10 @@ void select_system(AptReading& r, const RobotLine& line, const AptStatement& sta
   enter_robot_frame(r.robot, frame);
 }
 
-void switch_off_or_on(AptReading& r, const AptStatement& statement, std::string_view why) {
-  const std::string first =
-      statement.parameters.empty() ? "" : apt_word(part(r.robot.program.text, statement.parameters[0]));
-  if (first == "OFF")
-    r.why_not_followed.clear();
-  else
-    r.why_not_followed = why;
+/// Of CYCLE/ and CUTCOM/.
+bool is_switched_on(const AptReading& r, const AptStatement& statement) {
+  return statement.parameters.empty() ||
+         apt_word(part(r.robot.program.text, statement.parameters[0])) != "OFF";
 }
 
 bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& statement) {
@@ -170,9 +167,9 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
   else if (head == "CSYS" || head == "MSYS" || head == "ORIGIN")
     select_system(r, line, statement);
   else if (head == "CUTCOM")
-    switch_off_or_on(r, statement, "the control shifts the points by the tool's radius (CUTCOM/)");
+    r.in_cutcom = is_switched_on(r, statement);
   else if (head == "CYCLE")
-    switch_off_or_on(r, statement, "the points are holes of CYCLE/, which is not supported");
+    r.in_cycle = is_switched_on(r, statement);
   else
     return false;
   return true;

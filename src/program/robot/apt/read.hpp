@@ -18,7 +18,8 @@ struct AptReading {
   bool rapid = false;                 ///< RAPID: the next point is reached in rapid
   std::optional<AptCircle> circle{};  ///< CIRCLE/, until a point that is not on it
   bool begins_circle = false;         ///< no point behind CIRCLE/ yet
-  std::string why_not_followed{};     ///< why points are not followed; empty if they are
+  bool in_cycle = false;              ///< CYCLE/: the points are holes
+  bool in_cutcom = false;             ///< CUTCOM/: the control shifts the points
   std::optional<double> feed_per_turn_mm{};
 };
 

@@ -231,6 +231,20 @@ TEST_CASE("points behind CIRCLE/ are chords if they follow the circle, and are n
   CHECK(unchanged(program) == text);
 }
 
+TEST_CASE("CYCLE/ and CUTCOM/ of APT are switched off by their own OFF only") {
+  const auto read_between = [](const std::string& on, const std::string& other, const std::string& off) {
+    return read_apt(fmt::format(
+        "UNITS/MM\nFEDRAT/100\nGOTO/0,0,0\n{}{}GOTO/1,0,0\nGOTO/2,0,0\n{}GOTO/3,0,0\n", on, other, off));
+  };
+  for (const Program& program : {read_between("CYCLE/DRILL,10\n", "CUTCOM/OFF\n", "CYCLE/OFF\n"),
+                                 read_between("CUTCOM/LEFT\n", "CYCLE/OFF\n", "CUTCOM/OFF\n")}) {
+    REQUIRE(program.moves.size() == 4);
+    CHECK(program.moves[1].fixed[0]);
+    CHECK(program.moves[2].fixed[0]);
+    CHECK(!program.moves[3].fixed[0]);
+  }
+}
+
 TEST_CASE("what APT does not give as plain points is not followed, or refused with its line") {
   const Program program = read_apt(
       "UNITS/MM\n"
