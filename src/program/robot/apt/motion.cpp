@@ -51,38 +51,33 @@ double radius_mm(const AptCircle& circle, const Vector3& p_mm) {
   return (arm - arm.dot(circle.normal) * circle.normal).norm();
 }
 
-/// Whether `move` ends on the circle on which it starts. Leaves the circle if not.
-bool stays_on_circle(AptReading& r, const Move& move) {
-  constexpr double equal_mm = 0.02;
-  const bool known = r.circle->is_known && all_known(move.known_start) && all_known(move.known_end);
-  if (known && std::abs(radius_mm(*r.circle, move.start_mm) - radius_mm(*r.circle, move.end_mm)) < equal_mm)
+/// Whether the point `target` is on the circle of CIRCLE/. The first point behind CIRCLE/ always is. Leaves
+/// the circle if it is not.
+bool stays_on_circle(AptReading& r, const RobotTarget& target, Motion motion) {
+  constexpr double equal_mm = 0.1;  // generous: a post finds the points of the circle with its own tolerance
+  if (!r.circle) return false;
+  AptCircle& circle = *r.circle;
+  if (!circle.is_known) return true;
+  const Vector3 p_mm(target.position[0]->value, target.position[1]->value, target.position[2]->value);
+  const double radius = radius_mm(circle, p_mm);
+  if (!circle.radius_mm) {
+    circle.radius_mm = radius;
     return true;
-  if (!r.begins_circle) r.circle.reset();
+  }
+  if (motion == Motion::feed && std::abs(radius - *circle.radius_mm) < equal_mm) return true;
+  r.circle.reset();
   return false;
 }
 
-/// Greatest distance of the circle from the chord `move`.
-double height_over_chord_mm(const AptCircle& circle, const Move& move) {
-  const double radius = radius_mm(circle, move.start_mm);
-  const Vector3 chord = move.end_mm - move.start_mm;
-  const double half = (chord - chord.dot(circle.normal) * circle.normal).norm() / 2;
-  return half >= radius ? radius : radius - std::sqrt(radius * radius - half * half);
-}
-
-/// Why the path to a point behind CIRCLE/ is not its chord; empty if it is.
-std::string why_no_chord(AptReading& r, const Move& move) {
-  constexpr double most_mm = 0.01;
-  if (!r.circle) return "";
-  if (!stays_on_circle(r, move))
-    return r.circle
-               ? "the path behind CIRCLE/ is not known: its numbers are not, or its points do not lie on it"
-               : "";
-  if (height_over_chord_mm(*r.circle, move) <= most_mm) return "";
-  return "the points behind CIRCLE/ are too far from each other to be read as chords of the circle";
-}
-
-/// Why the control does not go to the points; empty if it does.
-std::string why_not_followed(const AptReading& r) {
+/// Why the point is not followed; empty if it is.
+std::string why_not_followed(AptReading& r, const RobotTarget& target, Motion motion) {
+  if (has_axis_of_no_length(target)) return "the tool axis has no direction: its numbers are 0";
+  // A post computes the arc from the centre in CIRCLE/ and from the points.
+  if (stays_on_circle(r, target, motion))
+    return r.circle->is_known
+               ? "the points lie on the circle of CIRCLE/, whose centre is not corrected: post "
+                 "lines without CIRCLE/"
+               : "the numbers of CIRCLE/ are not plain: points may lie on its circle";
   if (r.in_cycle) return "the points are holes of CYCLE/, which is not supported";
   if (r.in_cutcom) return "the control shifts the points by the tool's radius (CUTCOM/)";
   return "";
@@ -100,22 +95,9 @@ void read_apt_point(AptReading& r, const RobotLine& line, const AptStatement& st
   r.robot.state.unit = unit_of(r, line);
   const Motion motion = std::exchange(r.rapid, false) ? Motion::rapid : Motion::feed;
   const auto target = target_of(r, statement);
-  std::string why = why_not_followed(r);
-  if (!target) why = why_no_target(statement);
-  if (target && has_axis_of_no_length(*target)) why = "the tool axis has no direction: its numbers are 0";
-  if (!why.empty()) {
-    r.circle.reset();
-    return add_unfollowed_move(r.robot, line, why);
-  }
-  Move move = begin_robot_move(r.robot, line, motion);
-  end_at_target(r.robot, *target, {.motion = motion, .passes = true, .rounds = false}, move);
-  const bool behind_circle = r.circle.has_value();
-  why = why_no_chord(r, move);
-  r.begins_circle = false;
+  const std::string why = target ? why_not_followed(r, *target, motion) : why_no_target(statement);
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
-  // An inserted point would be the end of the circle.
-  if (behind_circle && r.circle) move.may_split = move.may_jump = false;
-  r.robot.program.moves.push_back(std::move(move));
+  add_target_move(r.robot, line, *target, {.motion = motion, .passes = true, .rounds = false});
 }
 
 void read_apt_circle(AptReading& r, const AptStatement& statement) {
@@ -131,7 +113,6 @@ void read_apt_circle(AptReading& r, const AptStatement& statement) {
   const double unit = is_known ? mm_per(*r.unit) : 1;
   r.circle =
       AptCircle{unit * Vector3(numbers[0], numbers[1], numbers[2]), normal.stableNormalized(), is_known};
-  r.begins_circle = true;
 }
 
 }  // namespace counterflex

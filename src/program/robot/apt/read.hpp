@@ -9,7 +9,8 @@ namespace counterflex {
 struct AptCircle {
   Vector3 centre_mm;
   Vector3 normal;
-  bool is_known = false;  ///< its numbers are plain
+  bool is_known = false;              ///< its numbers are plain
+  std::optional<double> radius_mm{};  ///< of the first point behind CIRCLE/; empty before that point
 };
 
 struct AptReading {
@@ -17,7 +18,6 @@ struct AptReading {
   std::optional<LengthUnit> unit{};   ///< of UNITS/ or of the options
   bool rapid = false;                 ///< RAPID: the next point is reached in rapid
   std::optional<AptCircle> circle{};  ///< CIRCLE/, until a point that is not on it
-  bool begins_circle = false;         ///< no point behind CIRCLE/ yet
   bool in_cycle = false;              ///< CYCLE/: the points are holes
   bool in_cutcom = false;             ///< CUTCOM/: the control shifts the points
   std::optional<double> feed_per_turn_mm{};

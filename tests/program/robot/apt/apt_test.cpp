@@ -203,7 +203,7 @@ TEST_CASE("feeds per turn need the speed of the spindle, and rapid holds for one
   CHECK(program.moves[4].feed_mm_min == 0);
 }
 
-TEST_CASE("points behind CIRCLE/ are chords if they follow the circle, and are not split") {
+TEST_CASE("the points on the circle of CIRCLE/ are not followed: its centre would not be corrected") {
   const std::string text =
       "UNITS/MM\n"
       "FEDRAT/100\n"
@@ -212,22 +212,24 @@ TEST_CASE("points behind CIRCLE/ are chords if they follow the circle, and are n
       "GOTO/9.992,0.400,0\n"
       "GOTO/9.968,0.799,0\n"
       "GOTO/20,0.799,0\n"
-      "CIRCLE/20,10,0,0,0,1,9.201\n"
+      "CIRCLE/20,10,0,0,0,1\n"
       "GOTO/29.201,10,0\n"
+      "RAPID\n"
+      "GOTO/29.201,10,50\n"
       "GOTO/40,10,0\n"
       "CIRCLE/C1\n"
-      "GOTO/40,20,0\n";
+      "GOTO/40,20,0\n"
+      "GOTO/60,20,0\n";
   const Program program = read_apt(text);
-  REQUIRE(program.moves.size() == 7);
-  CHECK(all_known(program.moves[1].known_end));
-  CHECK(!program.moves[1].may_split);
-  CHECK(!program.moves[1].arc);
-  CHECK(!program.moves[2].may_split);
-  CHECK(program.moves[3].may_split);
-  CHECK(program.moves[4].fixed[0]);
-  CHECK(!program.moves[5].known_start[0]);
-  CHECK(program.moves[6].fixed[0]);
-  CHECK(program.left_alone[0].line == 9);
+  std::vector<bool> fixed;
+  for (const Move& move : program.moves) fixed.push_back(move.fixed[0]);
+  CHECK(fixed == std::vector<bool>{false, true, true, false, true, false, false, true, true});
+  CHECK(!program.moves[3].known_start[0]);
+  CHECK(all_known(program.moves[3].known_end));
+  REQUIRE(program.left_alone.size() == 3);
+  CHECK(program.left_alone[0].line == 5);
+  CHECK(program.left_alone[1].line == 9);
+  CHECK(program.left_alone[2].line == 14);
   CHECK(unchanged(program) == text);
 }
 
