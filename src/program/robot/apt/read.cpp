@@ -133,6 +133,12 @@ void select_tool(AptReading& r, const AptStatement& statement) {
   enter_robot_tool(r.robot, is_number ? static_cast<std::int32_t>(number) : 0);
 }
 
+/// Another tool offset, or the end of the program in the control: a post may move the axes there.
+void lose_position(AptReading& r) {
+  forget_position(r.robot);
+  r.robot.state.moved_by_machine = true;
+}
+
 /// CSYS/ and MSYS/ state the coordinate system of the points after them: rows of a matrix with its origin, or
 /// the origin and two axes. Each other text is another system.
 void select_system(AptReading& r, const RobotLine& line, const AptStatement& statement) {
@@ -170,6 +176,8 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
     r.in_cutcom = is_switched_on(r, statement);
   else if (head == "CYCLE")
     r.in_cycle = is_switched_on(r, statement);
+  else if (head == "SWITCH" || head == "REWIND" || head == "END")
+    lose_position(r);
   else
     return false;
   return true;

@@ -247,6 +247,27 @@ TEST_CASE("CYCLE/ and CUTCOM/ of APT are switched off by their own OFF only") {
   }
 }
 
+TEST_CASE(
+    "words of APT that end the program or select an offset are no moves, and the place behind them is "
+    "unknown") {
+  const Program program = read_apt(
+      "UNITS/MM\n"
+      "FEDRAT/100\n"
+      "GOTO/0,0,0\n"
+      "SWITCH/1,LENGTH\n"
+      "GOTO/1,0,0\n"
+      "GOTO/2,0,0\n"
+      "REWIND/0\n"
+      "GOTO/3,0,0\n"
+      "END\n"
+      "GOTO/4,0,0\n"
+      "FINI\n");
+  std::vector<bool> known_start;
+  for (const Move& move : program.moves) known_start.push_back(move.known_start[0]);
+  CHECK(known_start == std::vector<bool>{false, false, true, false, false});
+  CHECK(program.left_alone.empty());
+}
+
 TEST_CASE("what APT does not give as plain points is not followed, or refused with its line") {
   const Program program = read_apt(
       "UNITS/MM\n"
