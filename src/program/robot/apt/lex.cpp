@@ -23,6 +23,30 @@ std::size_t continuation_in(std::string_view text, Span code) {
   return is_text ? code.end : code.begin + sign;
 }
 
+bool ends_with_sign(std::string_view line) {
+  const std::size_t last = line.find_last_not_of(" \t");
+  return last != std::string_view::npos && line[last] == '$';
+}
+
+/// Whether the line is a remark of Creo that '$' continues: "$$-> CSYS / 1, 0, 0, 0, $".
+bool is_continued_remark(std::string_view text, const RobotLine& line) {
+  const std::string_view comment = part(text, line.comment);
+  return empty(line.code) && comment.starts_with("->") && ends_with_sign(comment);
+}
+
+/// Adds to the remark in `line` the lines that continue it. These have numbers alone.
+void take_remark_lines(std::string_view text, RobotLine& line) {
+  RobotLine last = line;
+  while (next_robot_line(text, apt_comment, last)) {
+    const std::string_view code = part(text, last.code);
+    if (code.empty() || code.find_first_not_of("0123456789+-.eE,$ \t") != std::string_view::npos) return;
+    ++line.more_lines;
+    line.span.end = last.span.end;
+    line.line_end = last.line_end;
+    if (!ends_with_sign(code)) return;
+  }
+}
+
 /// Without blanks, line ends, and '$' with the text behind it, at both ends.
 Span without_blanks_and_signs(std::string_view text, Span span) {
   const auto skipped = [&](std::size_t at) {
@@ -43,6 +67,10 @@ Span without_blanks_and_signs(std::string_view text, Span span) {
 
 bool next_apt_line(std::string_view text, RobotLine& line) {
   if (!next_robot_line(text, apt_comment, line)) return false;
+  if (is_continued_remark(text, line)) {
+    take_remark_lines(text, line);
+    return true;
+  }
   RobotLine last = line;
   while (continuation_in(text, last.code) < last.code.end && next_robot_line(text, apt_comment, last)) {
     ++line.more_lines;
@@ -58,7 +86,8 @@ bool apt_continues_behind(std::string_view text, std::size_t newline) {
   const std::size_t before = newline == 0 ? std::string_view::npos : text.rfind('\n', newline - 1);
   RobotLine line;
   line.line_end.end = before == std::string_view::npos ? 0 : before + 1;
-  return next_robot_line(text, apt_comment, line) && continuation_in(text, line.code) < line.code.end;
+  return next_robot_line(text, apt_comment, line) &&
+         (is_continued_remark(text, line) || continuation_in(text, line.code) < line.code.end);
 }
 
 AptStatement apt_statement(std::string_view text, Span code) {

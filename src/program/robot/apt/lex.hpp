@@ -18,10 +18,10 @@ struct AptStatement {
 };
 
 /// As `next_robot_line`: the next statement with all lines over which '$' continues it. Its code then has
-/// line ends.
+/// line ends. A remark of Creo, "$$-> CSYS/1,0,0,0,$", takes the lines of numbers that continue it.
 bool next_apt_line(std::string_view text, RobotLine& line);
 
-/// Whether the statement of the line that ends at `newline` continues in the next one.
+/// Whether the statement or the remark of the line that ends at `newline` continues in the next one.
 bool apt_continues_behind(std::string_view text, std::size_t newline);
 
 /// The statement `code`.

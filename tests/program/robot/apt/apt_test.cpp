@@ -268,6 +268,25 @@ TEST_CASE(
   CHECK(program.left_alone.empty());
 }
 
+TEST_CASE("a remark of Creo continues in the lines of numbers behind a dollar sign") {
+  const std::string text =
+      "UNITS / MM\n"
+      "FEDRAT / 100\n"
+      "GOTO / 0, 0, 0\n"
+      "$$-> CSYS / 1.0, 0.0, 0.0, 0.0, $\n"
+      "            0.0, 1.0, 0.0, 0.0, $\n"
+      "            0.0, 0.0, 1.0, 0.0\n"
+      "GOTO / 1, 0, 0\n"
+      "$$-> CSYS / 1.0, $\n"
+      "GOTO / 2, 0, 0\n";
+  const Program program = read_apt(text);
+  REQUIRE(program.moves.size() == 3);
+  CHECK(program.moves[1].line == 7);
+  CHECK(program.moves[1].known_start[0]);
+  CHECK(program.left_alone.empty());
+  CHECK(unchanged(program) == text);
+}
+
 TEST_CASE("what APT does not give as plain points is not followed, or refused with its line") {
   const Program program = read_apt(
       "UNITS/MM\n"
@@ -337,6 +356,7 @@ TEST_CASE("a long APT program is written the same in windows and as a whole") {
     text += fmt::format("GOTO/{:.3f},1.5,0\n", 0.1 * i);
     if (i % 7 == 0) text += fmt::format("GOTO/{:.3f},1.5, $\n 0.5,0.6,0,0.8\n", 0.1 * i);
     if (i % 90 == 0) text += "RAPID\nGOTO/0,0,0,0,0,1\n";
+    if (i % 5 == 0) text += "$$-> CSYS / 1, 0, 0, 0, $\n  0, 1, 0, 0, $\n  0, 0, 1, 0\n";
   }
   const auto edits_of = [](const Program& program) {
     std::vector<MoveEdit> edits = robot_edits(program);
