@@ -91,6 +91,8 @@ struct ProgramFrame {
   /// Pose of the work offset in the machine frame or the robot's world frame, if the program gives it with
   /// numbers ($BASE, wobjdata); lengths in mm, unlike other poses.
   std::optional<Pose> pose_mm{};
+  /// Axis of the tool at points that give positions alone, if the program states it beside them (TLAXIS/).
+  std::optional<Vector3> tool_axis{};
 
   bool operator==(const ProgramFrame&) const = default;
 };

@@ -15,6 +15,7 @@
 #include "counterflex/program/size_limit.hpp"
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/machine_along.hpp"
+#include "counterflex/statics/nominal.hpp"
 #include "process/exit_status.hpp"
 #include "process/standard_output.hpp"
 #include "run/facts.hpp"
@@ -51,6 +52,27 @@ void refuse_orientation(const Run& run) {
       ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
       "the program gives the tool's orientation, but `controlled` does not list all of x, y, z, rx, "
       "ry, rz: take the file of a six-axis machine, or add what the machine controls");
+}
+
+/// Points of X, Y and Z are computed with the orientation at home.
+void refuse_tool_axis(const Run& run) {
+  constexpr double equal_deg = 0.1;  // so small a turn of the arm changes the correction by next to nothing
+  const Model& model = run.machine.model;
+  const Vector3 at_home = tip(model.mechanism, model.home).R.col(2);
+  for (std::size_t i = 0; i < run.program.frames.size(); ++i) {
+    const auto& axis = run.program.frames[i].tool_axis;
+    if (!axis || !run.program.frames_used[i]) continue;
+    const Vector3 stated = run.work.frames[i].X_MW.R * *axis;
+    const double angle_deg = std::atan2(stated.cross(at_home).norm(), stated.dot(at_home)) / deg;
+    if (angle_deg <= equal_deg) continue;
+    throw InputError(
+        ErrorKind::machine_or_force, {run.program.file},
+        fmt::format(
+            "TLAXIS/{:.6g},{:.6g},{:.6g} states the tool axis for points of three numbers, {:.2f} deg "
+            "from the axis of the machine at home; at most {} deg is allowed: post each point with "
+            "its axis (GOTO/ with six numbers), or take a machine file whose home has this axis",
+            axis->x(), axis->y(), axis->z(), angle_deg, equal_deg));
+  }
 }
 
 /// Warns of orientations that the machine controls but a program of X, Y and Z does not state.
@@ -230,6 +252,7 @@ std::unique_ptr<Run> prepared_run(const Options& options, MachineInput machine, 
   run->starts.emplace();
   refuse_orientation(*run);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
+  refuse_tool_axis(*run);
   add_common_shifts(on, {run->machine.model, run->tool_models, &*run->starts}, places, run->program,
                     run->work.frames);
   run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models, run->work.frames);

@@ -162,7 +162,8 @@ std::optional<Failure> frame_failure(const Job& job, const MatchedMoves& matched
                      &found = last.program->frames[last.move->frame];
   const double off = (found.origin_mm - wanted.origin_mm).norm();
   const bool same = found.work_offset == wanted.work_offset && found.set_mm == wanted.set_mm &&
-                    off <= rounding_mm && std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
+                    found.tool_axis == wanted.tool_axis && off <= rounding_mm &&
+                    std::abs(found.turn_rad - wanted.turn_rad) <= rounding_rad;
   if (same) return external_failure(job, matched);
   return matched.failure(
       fmt::format("the coordinates of this block are not those of the original: another offset, or {:.4f} mm "

@@ -58,7 +58,6 @@ constexpr auto apt_motionless = std::to_array<std::string_view>({"PARTNO",
                                                                  "CSI_SET_EXTENSION_LENGTH",
                                                                  "INDIRV",
                                                                  "INDIRP",
-                                                                 "TLAXIS",
                                                                  "PROBE_DATA"});
 /// Statements after which the points are other places.
 constexpr auto apt_transforming = std::to_array<std::string_view>(
@@ -147,8 +146,28 @@ void select_system(AptReading& r, const RobotLine& line, const AptStatement& sta
   std::vector<double> numbers;
   for (const Span parameter : statement.parameters) numbers.push_back(plain(r, parameter).value_or(2));
   const bool is_same = std::ranges::equal(numbers, same) || std::ranges::equal(numbers, same_axes);
-  ProgramFrame frame;
-  if (!is_same) frame.work_offset = apt_word(part(r.robot.program.text, line.code));
+  ProgramFrame frame = r.robot.program.frames[r.robot.state.frame];
+  frame.work_offset = is_same ? "" : apt_word(part(r.robot.program.text, line.code));
+  enter_robot_frame(r.robot, frame);
+}
+
+/// TLAXIS/i,j,k is the axis at the points of three numbers behind it. Beside points that have an axis of
+/// their own it is not used: the axis and the place are unknown until the next such point.
+void read_tool_axis(AptReading& r, const RobotLine& line, const AptStatement& statement) {
+  if (r.robot.turns) return lose_position(r);
+  Vector3 axis = Vector3::Zero();
+  bool is_plain = statement.parameters.size() == 3;
+  for (Eigen::Index i = 0; is_plain && i < 3; ++i) {
+    const auto number = plain(r, statement.parameters[static_cast<std::size_t>(i)]);
+    is_plain = number.has_value();
+    axis[i] = number.value_or(0);
+  }
+  if (!is_plain || axis.isZero(0))
+    refuse(r.robot.program.file, line, line.code.begin,
+           "TLAXIS/ is not an axis of three plain numbers; write TLAXIS/0,0,1, or post each point with its "
+           "axis");
+  ProgramFrame frame = r.robot.program.frames[r.robot.state.frame];
+  frame.tool_axis = axis.stableNormalized();
   enter_robot_frame(r.robot, frame);
 }
 
@@ -172,6 +191,8 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
     select_tool(r, statement);
   else if (head == "CSYS" || head == "MSYS" || head == "ORIGIN")
     select_system(r, line, statement);
+  else if (head == "TLAXIS")
+    read_tool_axis(r, line, statement);
   else if (head == "CUTCOM")
     r.in_cutcom = is_switched_on(r, statement);
   else if (head == "CYCLE")

@@ -268,6 +268,35 @@ TEST_CASE(
   CHECK(program.left_alone.empty());
 }
 
+TEST_CASE("TLAXIS/ states the axis of points without one, and the tool turns where it changes") {
+  const Program program = read_apt(
+      "UNITS/MM\n"
+      "TLAXIS/0,0,1\n"
+      "GOTO/0,0,0\n"
+      "TLAXIS/0.0,0.0,2.0\n"
+      "GOTO/1,0,0\n"
+      "CSYS/1,0,0,5,0,1,0,0,0,0,1,0\n"
+      "GOTO/1,0,0\n"
+      "TLAXIS/0,-0.6,0.8\n"
+      "GOTO/2,0,0\n"
+      "GOTO/3,0,0\n");
+  std::vector<bool> known_start;
+  for (const Move& move : program.moves) {
+    CHECK(!move.orientation);
+    known_start.push_back(move.known_start[0]);
+  }
+  CHECK(known_start == std::vector<bool>{false, true, false, false, true});
+  const auto frame_of = [&](std::size_t move) { return program.frames[program.moves[move].frame]; };
+  CHECK(frame_of(1).tool_axis == Vector3(0, 0, 1));
+  CHECK(frame_of(2).tool_axis == Vector3(0, 0, 1));
+  CHECK(frame_of(3).tool_axis == Vector3(0, -0.6, 0.8));
+  CHECK(frame_of(3).work_offset == frame_of(2).work_offset);
+  const Program turning = read_apt("UNITS/MM\nGOTO/0,0,0,0,0,1\nTLAXIS/0,-0.6,0.8\nGOTO/1,0,0\n");
+  CHECK(!turning.moves[1].known_end[0]);
+  CHECK(refusal_of_apt("UNITS/MM\nTLAXIS/NORMPS\n")
+            .starts_with("job.cls:2:1: error: TLAXIS/ is not an axis of three plain numbers"));
+}
+
 TEST_CASE("a remark of Creo continues in the lines of numbers behind a dollar sign") {
   const std::string text =
       "UNITS / MM\n"
