@@ -29,11 +29,10 @@ void count_names(std::string_view text, Span code, UrNames& names) {
 }
 
 void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
-  constexpr std::size_t not_once = 2;
   UrVariable& variable = names.variables[std::string(part(text, assignment.variable))];
-  variable.assigned += assignment.of_member ? not_once : 1;
+  variable.values.push_back(assignment.value);
   variable.in_body = variable.in_body || in_body;
-  variable.value = assignment.value;
+  variable.by_member = variable.by_member || assignment.of_member;
 }
 
 }  // namespace
@@ -70,7 +69,7 @@ UrNames ur_names(std::string_view text) {
     if (is_function(word)) {
       const Span name = ur_name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
       names.functions.emplace(part(text, name));
-      if (word == "def" && depth == 0) depth_of_program = 1;
+      if (depth == 0) depth_of_program = word == "def" ? 1 : 0;
     }
     if (ur_opens_body(word)) ++depth;
     if (word == "end") depth = std::max(depth - 1, 0);
@@ -85,9 +84,13 @@ Span ur_resolved(std::string_view text, const UrNames& names, Span value) {
   if (empty(value) || ur_name_at(text, value.begin, value.end).end != value.end) return value;
   const auto found = names.variables.find(part(text, value));
   if (found == names.variables.end()) return value;
+  // Outside of bodies statements run once, in the order of the text.
   const UrVariable& variable = found->second;
-  const bool is_constant = variable.assigned == 1 && !variable.in_body && variable.value.begin < value.begin;
-  return is_constant ? variable.value : value;
+  const auto behind = std::ranges::lower_bound(variable.values, value.begin, {}, &Span::begin);
+  if (variable.in_body || variable.by_member || behind == variable.values.begin()) return value;
+  const Span last = *(behind - 1);
+  const bool may_change = variable.values.size() > 1 && last.begin < names.last_unknown_call;
+  return may_change ? value : last;
 }
 
 std::optional<double> ur_constant(std::string_view text, const UrNames& names, Span value) {

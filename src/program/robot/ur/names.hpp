@@ -13,15 +13,18 @@ namespace counterflex {
 
 /// What the statements of a program do with a variable.
 struct UrVariable {
-  std::size_t assigned = 0;  ///< number of assignments
-  std::size_t read = 0;      ///< how often statements have it otherwise
-  bool in_body = false;      ///< a function, a thread, a loop or a condition assigns it
-  Span value{};              ///< right side of its last assignment
+  std::vector<Span> values{};  ///< right sides of its assignments, in the order of the text
+  std::size_t read = 0;        ///< how often statements have it otherwise
+  bool in_body = false;        ///< a function, a thread, a loop or a condition assigns it
+  bool by_member = false;      ///< a statement assigns one of its elements
 };
 
 struct UrNames {
   std::map<std::string, UrVariable, std::less<>> variables;
   std::set<std::string, std::less<>> functions;  ///< functions and threads that the text defines
+  /// Where the text calls a function that it does not define, before the statement that is read. It might
+  /// assign variables.
+  std::size_t last_unknown_call = 0;
 };
 
 /// An assignment: "P1 = p[...]", "global P1 = p[...]", "q[0] = 1".
@@ -37,8 +40,9 @@ UrNames ur_names(std::string_view text);
 /// The assignment that the statement `code` is; empty if it is another one.
 std::optional<UrAssignment> ur_assignment(std::string_view text, Span code);
 
-/// `value`, or its constant: if it is a variable that only one statement before it assigns, outside of
-/// loops and conditions, the right side of that statement.
+/// `value`, or its constant: if it is a variable, the right side of its last assignment before it. Variables
+/// that a body assigns, or whose elements are assigned, have no constant. Variables with several assignments
+/// have none between the call of a function that the text does not define and their next assignment.
 Span ur_resolved(std::string_view text, const UrNames& names, Span value);
 
 /// The number of `value` or of its constant; empty if it is computed.

@@ -64,6 +64,7 @@ void run_function(UrReading& r, const RobotLine& line, std::string_view name) {
   forget_position(r.robot);
   r.robot.state.moved_by_machine = true;
   r.tool.clear();
+  if (!r.names.functions.contains(name)) r.names.last_unknown_call = line.code.begin;
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
 }
 

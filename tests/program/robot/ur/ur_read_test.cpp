@@ -92,9 +92,11 @@ TEST_CASE("a pose that is not a constant before its use is not followed") {
   const Program program = read_ur_statements(
       "movel(late)\n"
       "late = p[0,0,0,0,0,0]\n"
-      "twice = p[0,0,0,0,0,0]\n"
-      "twice = p[1,0,0,0,0,0]\n"
-      "movel(twice)\n"
+      "loop = p[0,0,0,0,0,0]\n"
+      "movel(loop)\n"
+      "while (a):\n"
+      "  loop = p[1,0,0,0,0,0]\n"
+      "end\n"
       "part = p[0,0,0,0,0,0]\n"
       "part[2] = 0.5\n"
       "movel(part)\n"
@@ -104,13 +106,41 @@ TEST_CASE("a pose that is not a constant before its use is not followed") {
       "  maybe = p[0,0,0,0,0,0]\n"
       "end\n"
       "movel(maybe)\n"
-      "movej(twice)\n");
+      "movej(maybe)\n");
   REQUIRE(program.moves.size() == 6);
   for (const Move& move : program.moves) CHECK(move.fixed[0]);
   REQUIRE(program.left_alone.size() == 2);
   CHECK(program.left_alone[0].line == 2);
   CHECK(program.left_alone[0].why == "the target of movel is computed at run time");
-  CHECK(program.left_alone[1].line == 16);
+  CHECK(program.left_alone[1].line == 18);
+}
+
+TEST_CASE("a variable of straight code has the value of its last assignment before the use") {
+  const Program program = read_ur_statements(
+      "zone = 0\n"
+      "P = p[0,0,0,0,0,0]\n"
+      "P = p[1,0,0,0,0,0]\n"
+      "movel(P,r=zone)\n"
+      "zone = 0.002\n"
+      "P = p[2,0,0,0,0,0]\n"
+      "movel(P,r=zone)\n"
+      "def local_names():\n"
+      "  other = p[9,0,0,0,0,0]\n"
+      "end\n"
+      "local_names()\n"
+      "movel(P)\n"
+      "grip()\n"
+      "movel(P)\n"
+      "P = p[3,0,0,0,0,0]\n"
+      "movel(P)\n");
+  REQUIRE(program.moves.size() == 5);
+  CHECK(program.moves[0].end_mm.x() == 1000);
+  CHECK(program.moves[0].exact_stop);
+  CHECK(program.moves[1].end_mm.x() == 2000);
+  CHECK(program.moves[1].zone->length_mm == 2);
+  CHECK(program.moves[2].end_mm.x() == 2000);
+  CHECK(program.moves[3].fixed[0]);  // grip might assign P
+  CHECK(program.moves[4].end_mm.x() == 3000);
 }
 
 TEST_CASE("circles that are not known are not followed") {

@@ -161,6 +161,32 @@ TEST_CASE("a named pose that two moves want at different places is not rewritten
   CHECK(rewrite(twice, {edits[1]}, {}).text == inline_use);
 }
 
+TEST_CASE("a named pose is rewritten in the assignment whose value a move uses") {
+  const Program program = read_ur_statements(
+      "P=p[0,0,0,0,0,0]\n"
+      "P=p[0.1,0,0,0,0,0]\n"
+      "movel(P)\n"
+      "movel(P)\n");
+  std::vector<MoveEdit> edits = robot_edits(program);
+  for (MoveEdit& edit : edits) edit.end_mm.x() = 100.01;
+  CHECK(rewrite(program, edits, {}).text == ur_program_of("P=p[0,0,0,0,0,0]\n"
+                                                          "P=p[0.10001,0,0,0,0,0]\n"
+                                                          "movel(P)\n"
+                                                          "movel(P)\n"));
+  const Program twice = read_ur_statements(
+      "P=p[0,0,0,0,0,0]\n"
+      "movel(P)\n"
+      "P=p[0.1,0,0,0,0,0]\n"
+      "movel(P)\n");
+  edits = robot_edits(twice);
+  edits[0].end_mm.x() = 0.01;
+  edits[1].end_mm.x() = 100.01;
+  CHECK(rewrite(twice, edits, {}).text == ur_program_of("P=p[0,0,0,0,0,0]\n"
+                                                        "movel(p[0.00001,0,0,0,0,0])\n"
+                                                        "P=p[0.1,0,0,0,0,0]\n"
+                                                        "movel(p[0.10001,0,0,0,0,0])\n"));
+}
+
 TEST_CASE("movec is an arc through pose_via, whose rotation is not used") {
   const std::string statements =
       "movel(p[0.01,0,0,0,0,0])\n"
