@@ -61,6 +61,23 @@ std::vector<std::size_t> numbers_in(std::string_view lines) {
   return numbers;
 }
 
+/// Whether the M at `at` jumps to a block number: M99 P10, and M96 P10 of Haas.
+bool m_jumps_at(std::string_view text, std::size_t at, bool has_m96) {
+  const std::size_t digits = text.find_first_not_of(" \t", at + 1);
+  if (digits == std::string_view::npos || in_comment(text, at)) return false;
+  const std::string_view number = text.substr(digits, 3);
+  const bool ends = number.size() < 3 || !is_digit(number[2]);
+  if (!ends || !(number.starts_with("99") || (has_m96 && number.starts_with("96")))) return false;
+  const std::string_view rest = text.substr(digits, text.find_first_of("\n(", digits) - digits);
+  return find_either(rest, 'P', 'p', 0) != std::string_view::npos;
+}
+
+bool m_jumps_in(std::string_view lines, bool has_m96) {
+  for (std::size_t at = 0; (at = find_either(lines, 'M', 'm', at)) != std::string_view::npos; ++at)
+    if (m_jumps_at(lines, at, has_m96)) return true;
+  return false;
+}
+
 bool jumps_in(std::string_view lines) {
   for (const char o : {'O', 'o'})
     for (std::size_t at = 0; (at = lines.find(o, at)) != std::string_view::npos; ++at)
@@ -112,7 +129,9 @@ void OutlineScan::add_numbered(std::string_view lines) {
   begun_ = true;
   if (dialect_.sinumerik_words) outline_.jumps = outline_.jumps || siemens_jumps(lines);
   if ((dialect_.family & (shop_families | mach3_family)) == 0) return;
-  outline_.jumps = outline_.jumps || jumps_in(lines);
+  const bool shop = (dialect_.family & shop_families) != 0;
+  outline_.jumps =
+      outline_.jumps || jumps_in(lines) || (shop && m_jumps_in(lines, (dialect_.family & haas_family) != 0));
   std::vector<bool>& list = outline_.subprograms;
   std::size_t from = 0;
   const auto close_until = [&](std::size_t end) {

@@ -43,7 +43,7 @@ TEST_CASE("the description of a machine shows all of its parts") {
 controlled   z
 home         at the platform pose of the joints' home values
 tool         tip at the reference point
-program      dialect auto, units not stated, a tool change moves all axes
+program      dialect auto, units not stated, a tool change moves all axes (linuxcnc, grbl: no axis)
 correction   at most 1 mm
 work         no offsets: programs are in the machine frame
 

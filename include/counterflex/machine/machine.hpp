@@ -224,7 +224,7 @@ struct WorkOffset {
 struct ControlSettings {
   std::string dialect = "auto";
   std::string units;                                          ///< "mm", "inch" or empty: not known
-  std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: all
+  std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: as the dialect has it
   bool absolute_centres = false;                              ///< of arcs, until a program changes it
 };
 

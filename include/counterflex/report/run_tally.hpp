@@ -41,7 +41,7 @@ struct Measures {
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
   double corrected_mm = 0;           ///< of it, pieces that are within the tolerance everywhere
-  std::size_t segments_changed = 0;  ///< feed moves and rapids whose target is not the original one
+  std::size_t segments_changed = 0;  ///< moves whose target is not the original one
 };
 
 /// The moves of a tool and an operation, wherever they are in the program.
@@ -111,7 +111,7 @@ class PathTally {
 
   Measures m_;
   WorstLines lines_;
-  std::optional<std::pair<std::size_t, int>> last_changed_;  ///< segment and line
+  std::optional<std::pair<std::size_t, int>> last_changed_;  ///< move and line
   bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
   double piece_weight_ = 0;    ///< of the piece under way
   /// Of the way since the last place of the original path: all means but those of `after` are over these

@@ -13,6 +13,12 @@
 namespace counterflex {
 namespace {
 
+// Of the feed moves before a move that has no segment.
+double length_before(const Toolpath& path, std::size_t move) {
+  const auto next = std::ranges::upper_bound(path.segments, move, {}, &Segment::move);
+  return next == path.segments.end() ? path.end.s : next->s_start;
+}
+
 // `share`: of the way of the piece, from the sample before.
 Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, double share) {
   const PieceSample& sample = all.samples[s];
@@ -36,6 +42,9 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
     w.weight = segment->cutting ? share * (piece.u1 - piece.u0) * length(segment->wanted) : 0;
     w.s = segment->s_start + sample.u * (segment->s_end - segment->s_start);
     w.direction = direction_at(segment->wanted, sample.u);
+  } else {
+    w.s = length_before(job.path, w.move);
+    if (job.program.moves[w.move].cycle) w.direction = -w.tool_axis;  // the plunge to the bottom of a hole
   }
   w.status = all.status(s);
   w.iterations = all.answers[s].iterations;

@@ -81,7 +81,9 @@ std::string tool_phrase(const Tool& tool) {
 }
 
 std::string tool_change_phrase(const ControlSettings& control) {
-  if (!control.tool_change_moves) return "all axes";
+  const bool stays = control.dialect == "linuxcnc" || control.dialect == "grbl";
+  if (!control.tool_change_moves)
+    return control.dialect == "auto" ? "all axes (linuxcnc, grbl: no axis)" : stays ? "no axis" : "all axes";
   if (control.tool_change_moves->empty()) return "no axis";
   return fmt::format("{}", fmt::join(*control.tool_change_moves, " "));
 }

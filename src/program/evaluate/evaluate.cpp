@@ -10,7 +10,7 @@ namespace counterflex {
 namespace {
 
 std::optional<double> value_in(const Reading& r, Span expression) {
-  return value_of_expression(part(r.program.text, expression), r.dialect, r.variables).value;
+  return value_of_word(part(r.program.text, expression), r.dialect, r.variables).value;
 }
 
 bool runs_once(const Reading& r) {
@@ -55,6 +55,7 @@ void evaluate_words(Block& block, Reading& r) {
 
 void take_assignments(const Block& block, Reading& r) {
   if (!r.options.evaluate) return;
+  if ((r.state.displaced & modal_macro) != 0) return r.variables.clear();  // the macro may set any variable
   const std::string_view line = part(r.program.text, block.span);
   const bool flow = !empty(block.flow_keyword) && line.find('=') != std::string_view::npos;
   if (flow) return r.variables.clear();

@@ -47,6 +47,11 @@ ConstantValue value_of_expression(std::string_view expression, const Dialect& di
   });
 }
 
+ConstantValue value_of_word(std::string_view expression, const Dialect& dialect, const Variables& variables) {
+  const bool rounds = dialect.macro_words && normal(expression).find("rou") != std::string::npos;
+  return rounds ? ConstantValue{} : value_of_expression(expression, dialect, variables);
+}
+
 void assign(const Block& block, std::string_view text, const Dialect& dialect, bool known,
             Variables& variables) {
   std::vector<std::pair<std::string, std::optional<double>>> assigned;

@@ -22,6 +22,10 @@ std::string variable_name(const Dialect& dialect, std::string_view spelt);
 ConstantValue value_of_expression(std::string_view expression, const Dialect& dialect,
                                   const Variables& variables);
 
+/// The value of the expression of a word. ROUND of shop controls gives the least increment there, which
+/// depends on the axis and the machine: it is unknown.
+ConstantValue value_of_word(std::string_view expression, const Dialect& dialect, const Variables& variables);
+
 /// Stores the assignments of `block`. If `known` is false the variables become unknown. LinuxCNC reads all
 /// values of a block before it assigns any. A Sinumerik assigns one after the other. On other controls an
 /// assignment that reads a variable of the same block has an unknown value.

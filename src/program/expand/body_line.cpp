@@ -43,7 +43,7 @@ BodyLine line_of_body(std::string_view text, const Dialect& dialect, const Block
   std::vector<Replacement> replacements;
   for (const Word& word : block.words) {
     if (word.literal) continue;
-    const auto value = value_of_expression(part(text, word.number), dialect, variables).value;
+    const auto value = value_of_word(part(text, word.number), dialect, variables).value;
     if (!value)
       return {{},
               fmt::format("{}{} in line {} of its body is not a number given by the call", word.letter,

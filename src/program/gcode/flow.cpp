@@ -24,6 +24,17 @@ std::uint16_t differences(const ModalState& a, const ModalState& b) {
   if (a.absolute_centres != b.absolute_centres) found |= unknown_centres;
   if (a.returns_to_retract != b.returns_to_retract) found |= unknown_level;
   if (a.contour != b.contour) found |= unknown_cutter;
+  if (a.feed_mode != b.feed_mode) found |= unknown_feed_mode;
+  if (a.tool != b.tool) found |= unknown_tool;
+  return found;
+}
+
+/// Shifts and turns that act in one of the states alone. A work offset does not end them.
+std::uint16_t different_shifts(const Dialect& dialect, const ModalState& a, const ModalState& b) {
+  std::uint16_t found = 0;
+  if (a.shifts.set_mm != b.shifts.set_mm) found |= set_position;
+  if (a.shifts.local_mm != b.shifts.local_mm) found |= dialect.sinumerik_words ? framed : shifted;
+  if (a.shifts.turn_rad != b.shifts.turn_rad) found |= dialect.sinumerik_words ? framed : rotated;
   return found;
 }
 
@@ -39,7 +50,8 @@ void open_body(Reading& r, std::string name) {
   if (r.body.open.empty()) {
     end_contour(r);
     r.body.before = r.state;
-    r.body.unknown_modes = 0;
+    r.body.unknown_modes = r.body.displaced = 0;
+    r.body.chooses_tool = false;
   }
   r.body.open.push_back(std::move(name));
   r.state.known.fill(false);
@@ -62,14 +74,20 @@ void close_body(Reading& r) {
     r.body.subprogram = false;
     return;
   }
-  mark_differences_unknown(r.body.before, r.state);
+  mark_differences_unknown(r.dialect, r.body.before, r.state);
   r.state.unknown_modes |= r.body.unknown_modes;
+  r.state.displaced |= r.body.displaced;
+  if (r.body.chooses_tool) r.state.tool_chosen.reset();
   r.state.known.fill(false);
 }
 
 /// A path through the body leaves it here, or starts again.
 void note_differences(Reading& r) {
-  if (!r.body.open.empty()) r.body.unknown_modes |= differences(r.body.before, r.state);
+  if (r.body.open.empty()) return;
+  r.body.unknown_modes |= differences(r.body.before, r.state);
+  r.body.displaced |= r.state.displaced;
+  r.body.displaced |= different_shifts(r.dialect, r.body.before, r.state);
+  r.body.chooses_tool = r.body.chooses_tool || r.body.before.tool_chosen != r.state.tool_chosen;
 }
 
 void call(const Block& block, Reading& r) {
@@ -162,16 +180,17 @@ void return_from_call(Reading& r) {
     close_body(r);
     r.after_subprogram = true;
   } else if (r.body.open.empty()) {
-    r.ended = true;
+    r.ended = !r.body.jumps || r.sorted.word('P') == nullptr;  // M99 P10 jumps to N10
   } else {
     note_differences(r);
   }
 }
 
-void mark_differences_unknown(const ModalState& before, ModalState& now) {
+void mark_differences_unknown(const Dialect& dialect, const ModalState& before, ModalState& now) {
   now.level_is_stated = now.level_is_stated && before.level_is_stated;
   now.unknown_modes |= differences(before, now);
   now.displaced |= before.displaced;
+  now.displaced |= different_shifts(dialect, before, now);
   now.offsets_set |= before.offsets_set;
   if (now.tool_length != before.tool_length) {
     now.tool_length.reset();
@@ -179,6 +198,7 @@ void mark_differences_unknown(const ModalState& before, ModalState& now) {
     now.known[2] = false;
   }
   if (now.tool != before.tool) now.tool = 0;
+  if (now.tool_chosen != before.tool_chosen) now.tool_chosen.reset();
   now.exact_stop = now.exact_stop || before.exact_stop;
 }
 

@@ -14,6 +14,6 @@ void read_program_number(const Block& block, Reading& reading);
 void return_from_call(Reading& reading);
 
 /// Makes the states unknown that differ between `before` and `now`.
-void mark_differences_unknown(const ModalState& before, ModalState& now);
+void mark_differences_unknown(const Dialect& dialect, const ModalState& before, ModalState& now);
 
 }  // namespace counterflex

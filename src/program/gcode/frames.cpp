@@ -61,10 +61,13 @@ bool is_plain(const Block& block, const Reading& r, std::string_view more) {
 }
 
 /// LinuxCNC and Mach3 store G52 and G92 in the same place.
+bool has_one_shift(const Dialect& dialect) {
+  return (dialect.family & (linuxcnc_family | mach3_family)) != 0;
+}
+
 bool shift_locally(const Block& block, Reading& r) {
   if (!is_plain(block, r, "") || r.state.relative || r.state.shifts.turn_rad != 0) return false;
-  const bool one_place = (r.dialect.family & (linuxcnc_family | mach3_family)) != 0;
-  Vector3& shift = one_place ? r.state.shifts.set_mm : r.state.shifts.local_mm;
+  Vector3& shift = has_one_shift(r.dialect) ? r.state.shifts.set_mm : r.state.shifts.local_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const Word* word = axis_word(r, axis)) coordinate(shift, axis) = length_mm(r, *word);
   change_frame(r);
@@ -122,7 +125,7 @@ bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
 }
 
 bool end_set_position(const Block& block, Reading& r) {
-  if (!is_plain(block, r, "")) return false;
+  if (!is_plain(block, r, "")) r.state.known.fill(false);
   r.state.shifts.set_mm.setZero();
   change_frame(r);
   return true;
@@ -240,6 +243,25 @@ bool set_work_offset(const Block& block, Reading& r) {
     }
   if (name == acting) change_frame(r);
   return true;
+}
+
+void end_local_shift(Reading& r) {
+  FrameShifts& shifts = r.state.shifts;
+  const bool turned = shifts.turn_rad != 0 && !(shifts.local_mm + shifts.set_mm).isZero(0);
+  r.state.displaced &= static_cast<std::uint16_t>(~shifted);
+  if (turned) r.state.displaced |= rotated;  // the centre of G68 may stay, or move
+  shifts.local_mm.setZero();
+  if (has_one_shift(r.dialect)) {
+    shifts.set_mm.setZero();
+    r.state.displaced &= static_cast<std::uint16_t>(~set_position);
+  }
+  r.state.known.fill(false);
+  change_frame(r);
+}
+
+bool has_local_shift(const Reading& r) {
+  const FrameShifts& shifts = r.state.shifts;
+  return !shifts.local_mm.isZero(0) || (has_one_shift(r.dialect) && !shifts.set_mm.isZero(0));
 }
 
 bool apply_frame_code(const Block& block, Reading& r, const GCode& code) {

@@ -18,6 +18,12 @@ void enter_frame(Reading& reading, const std::string& work_offset);
 /// or cannot be followed.
 bool apply_frame_code(const Block& block, Reading& reading, const GCode& code);
 
+/// Ends G52, and on controls that store both in one place G92, where the state before is not known.
+void end_local_shift(Reading& reading);
+
+/// Whether G52 shifts the coordinates.
+bool has_local_shift(const Reading& reading);
+
 /// Reads G10 L2 and L20 with plain numbers. False if the block cannot be followed.
 bool set_work_offset(const Block& block, Reading& reading);
 

@@ -206,11 +206,13 @@ void apply_words(const Block& block, Reading& r) {
   r.own_feed = block.own_feed;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
+  apply_parameter(block, r);
   if (has_other_codes(r.sorted)) {
     apply_codes(block, r);
   } else {
     apply_feed_and_tool(r);
     apply_motion(r);
+    apply_tool_length(block, r);
     watch_other_axes(block, r);
   }
   if (r.dialect.sinumerik_words) apply_tool_edge(r);
@@ -231,7 +233,7 @@ void read_words(const Block& block, Reading& r) {
   // States that a skippable block sets are unknown afterwards.
   const ModalState before = r.state;
   apply_words(block, r);
-  mark_differences_unknown(before, r.state);
+  mark_differences_unknown(r.dialect, before, r.state);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
     if (r.sorted.word("ABC"[axis]) != nullptr) r.state.known_angles[axis] = false;
@@ -266,6 +268,7 @@ void interpret(const Block& block, Reading& r) {
   apply_comments(block, r);
   remark_length(block, r);
   if (!has_content(block)) return;
+  if (!r.dialect.sinumerik_words) apply_variables(block, r);
   if (!empty(block.flow_keyword)) {
     if (block.words.empty() || block.words.front().letter == 'N') {
       read_flow(block, r);

@@ -20,6 +20,8 @@ struct Body {
   std::vector<std::string> open;    ///< of O-words: name and keyword; else the keyword
   ModalState before{};              ///< state before the outermost structure
   std::uint16_t unknown_modes = 0;  ///< states that differ between the paths through the body
+  std::uint16_t displaced = 0;      ///< bits of Displacement that act on some of these paths alone
+  bool chooses_tool = false;        ///< so does T
   bool subprogram = false;  ///< the outermost structure is a subprogram, which does not run at its place
   bool jumps = false;       ///< GOTO makes the whole program a body
 };
@@ -35,6 +37,7 @@ struct Reading {
   ModalState state{};
   SortedBlock sorted{};
   bool own_feed = false;                 ///< of the block, as in Block
+  bool sets_tool_length = false;         ///< the block does
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block only; overrides the modal state
   /// X=IC(5) beside Y5: a bit for each axis whose word is a difference from the start.
   std::uint8_t relative_axes = 0;

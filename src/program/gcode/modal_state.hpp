@@ -35,7 +35,9 @@ enum UnknownMode : std::uint16_t {
   unknown_centres = 32,
   unknown_level = 64,
   unknown_cutter = 128,
-  all_unknown_modes = 255
+  all_unknown_modes = 255,  ///< of coordinates and motions
+  unknown_feed_mode = 256,
+  unknown_tool = 512  ///< in the spindle
 };
 
 /// Sticky words of a canned cycle (mm), absolute or differences as programmed.
@@ -96,7 +98,7 @@ struct ModalState {
   bool exact_stop = false;
   std::optional<double> tool_length;     ///< number of H; 0: off; empty: unknown
   std::optional<double> tool_length_mm;  ///< empty: unknown
-  long tool_chosen = 0;                  ///< T
+  std::optional<long> tool_chosen = 0;   ///< T; empty: unknown
   long tool = 0;                         ///< in the spindle
   std::optional<Vector6> force;
   std::uint16_t unknown_modes = 0;

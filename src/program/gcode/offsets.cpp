@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "program/evaluate/variables.hpp"
 #include "program/gcode/frames.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/read_move.hpp"
@@ -85,6 +86,30 @@ bool sets_offset(const Word* l) {
   return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
 }
 
+/// Anything may have set the offsets and the tool lengths.
+void lose_offsets(const Block& block, Reading& r, std::string_view why) {
+  r.state.offsets_set = 0xffff;
+  displace_by_data(r);
+  r.state.known.fill(false);
+  r.state.tool_length.reset();
+  r.state.tool_length_mm.reset();
+  r.lengths_set = true;
+  end_contour(r);
+  note_uncorrected(block, r, why);
+}
+
+/// Whether the variable, an index or a name of digits, may be an offset or a tool length of the control.
+bool may_be_offset(std::string_view variable, const Reading& r) {
+  if (variable.starts_with("#<")) return false;
+  const auto number = value_of_expression(variable.substr(1), r.dialect, r.variables).value;
+  if (!number) return true;
+  constexpr double last_of_user = 999, first_of_outputs = 1000, last_of_outputs = 1999,
+                   first_of_alarms = 3000, last_of_alarms = 3999, last_of_linuxcnc = 5160;
+  if (r.dialect.o_words) return *number > last_of_linuxcnc;
+  return *number > last_of_user && !(*number >= first_of_outputs && *number <= last_of_outputs) &&
+         !(*number >= first_of_alarms && *number <= last_of_alarms);
+}
+
 bool sets_tools(const Word* l) {
   return l != nullptr && l->literal && (l->value == 1 || (l->value >= 10 && l->value <= 13));
 }
@@ -110,16 +135,34 @@ void apply_work_offset(const Block& block, Reading& r) {
   displace_by_data(r);
 }
 
+namespace {
+
+bool changes_tool_length(const Reading& r) {
+  if (r.sorted.has(Action::tool_length) || r.sorted.has(Action::no_tool_length)) return true;
+  const bool is_argument =
+      r.sorted.has(Action::call) || r.sorted.has(MAction::call) || (r.state.displaced & modal_macro) != 0;
+  return r.dialect.macro_words && r.sorted.word('H') != nullptr && r.state.tool_length != 0.0 && !is_argument;
+}
+
+}  // namespace
+
 void apply_tool_length(const Block& block, Reading& r) {
-  const bool on = r.sorted.has(Action::tool_length);
-  if (!on && !r.sorted.has(Action::no_tool_length)) return;
+  r.sets_tool_length = changes_tool_length(r);
+  if (!r.sets_tool_length) return;
   ModalState& state = r.state;
   std::optional<double> number, length_mm;
-  if (!on) number = 0, length_mm = 0;
   const FoundG* found = r.sorted.find(Action::tool_length);
-  const bool dynamic = on && found->code->tenths != 430 && found->code->tenths != 440;
-  if (on && !dynamic) find_length(r, number, length_mm);
-  if (length_mm && on && found->code->tenths == 440) *length_mm = -*length_mm;
+  const Word* h = r.sorted.word('H');
+  const bool on = found != nullptr;
+  const bool is_number = h != nullptr && h->literal;
+  const bool off = !on && (r.sorted.has(Action::no_tool_length) || (is_number && h->value == 0));
+  if (off)
+    number = 0, length_mm = 0;
+  else if (!on && is_number)
+    number = h->value;
+  const bool plain = on && (found->code->tenths == 430 || found->code->tenths == 440);
+  if (plain) find_length(r, number, length_mm);
+  if (length_mm && plain && found->code->tenths == 440) *length_mm = -*length_mm;
   // Shop controls add relative Z to the programmed position, independent of the length.
   const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
   if (length_mm && state.tool_length_mm)
@@ -157,12 +200,12 @@ void apply_displacements(const Block& block, Reading& r) {
     const bool zero = is_zero_or_absent(r.sorted.word('X')) && is_zero_or_absent(r.sorted.word('Y')) &&
                       is_zero_or_absent(r.sorted.word('Z'));
     const bool all_named = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
-    if (!zero) {
+    // Under G91 a shop control may take the words as changes of the shift.
+    const bool sets = !r.state.relative || !r.dialect.macro_words;
+    if (zero && all_named && sets)
+      end_local_shift(r);
+    else if (!zero || has_local_shift(r))
       add_displacement(block, r, shifted);
-    } else if (all_named && (r.state.displaced & shifted) != 0) {
-      r.state.displaced &= static_cast<std::uint16_t>(~shifted);
-      r.state.known.fill(false);
-    }
   }
   watch_other_axes(block, r);
   if (r.sorted.has(MAction::kinematics)) add_displacement(block, r, kinematics);
@@ -173,6 +216,8 @@ void apply_set_data(const Block& block, Reading& r) {
   if (!r.sorted.has(Action::set_data)) return;
   const Word* l = r.sorted.word('L');
   r.state.entering_data = r.dialect.macro_words && l != nullptr && l->value >= 50;
+  if (l != nullptr && !l->literal)
+    return lose_offsets(block, r, "G10 with a computed L may set offsets or tools");
   if (sets_offset(l) && set_work_offset(block, r)) return;
   note_uncorrected(block, r, "G10 sets offsets or tools");
   if (sets_tools(l)) {
@@ -193,6 +238,19 @@ void apply_set_data(const Block& block, Reading& r) {
   }
   displace_by_data(r);
   if ((r.state.displaced & data) != 0) r.state.known.fill(false), end_contour(r);
+}
+
+void apply_variables(const Block& block, Reading& r) {
+  for (const Assignment& assignment : block.assignments)
+    if (may_be_offset(part(r.program.text, assignment.variable), r))
+      return lose_offsets(block, r, "a variable of the control may set offsets or tools");
+}
+
+void apply_parameter(const Block& block, Reading& r) {
+  constexpr double first_of_offsets = 1220, last_of_offsets = 1299;  // Fanuc: work offsets
+  const Word* n = r.sorted.word('N');
+  if (r.state.entering_data && n != nullptr && n->value >= first_of_offsets && n->value <= last_of_offsets)
+    lose_offsets(block, r, "a parameter sets a work offset");
 }
 
 bool takes_axis_words(const Reading& r) {

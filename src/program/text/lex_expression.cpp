@@ -129,11 +129,34 @@ bool lex_o_word(Scanner& s) {
   return true;
 }
 
+/// Behind IF: a condition, and GOTO or THEN with the assignment of a variable. Other text may be a call, a
+/// jump or a motion.
+void lex_consequence(Scanner s, Block& block) {
+  s.skip_blanks();
+  if (s.peek() == '[') skip_bracket(s);
+  s.skip_blanks();
+  const std::string_view letters = letters_at(s, s.at);
+  if (is_word(letters, "GOTO")) return;
+  const bool sets = is_word(letters, then);
+  s.at += letters.size();
+  s.skip_blanks();
+  if (!sets || s.peek() != '#') {
+    block.statement = Statement::not_read;
+    return;
+  }
+  const std::size_t begin = s.at;
+  skip_variable(s);
+  block.assignments.push_back({{begin, s.at}, {}});
+}
+
 bool lex_macro_word(Scanner& s) {
   const std::string_view word = letters_at(s, s.at);
   if (!is_one_of(word, macro_keywords) && !is_one_of(word, bare_keywords)) return false;
   const std::size_t after = s.at + word.size();
+  Scanner behind = s;
+  behind.at = after;
   note_flow(s, {after, after}, {s.at, after});
+  if (is_word(word, "IF")) lex_consequence(behind, s.block);
   return true;
 }
 

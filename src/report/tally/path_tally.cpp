@@ -152,9 +152,9 @@ std::vector<OperationTally> PathTally::operations() const {
 void PathTally::add_target(const Waypoint& w) {
   const double length = w.correction.head<3>().norm();
   keep(m_.correction, length, w.line);
-  const std::pair segment{w.segment, w.segment == no_segment ? 0 : w.line};
-  if (length < no_correction || last_changed_ == segment) return;
-  last_changed_ = segment;
+  const std::pair move{std::size_t{w.move}, w.line};
+  if (length < no_correction || last_changed_ == move) return;
+  last_changed_ = move;
   ++m_.segments_changed;
 }
 

@@ -6,6 +6,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/statics/mechanism.hpp"
+#include "statics/model/travel_margin.hpp"
 
 namespace counterflex {
 namespace {
@@ -30,7 +31,7 @@ std::optional<AxisPlace> tightest_axis(const Mechanism& mechanism, const Eigen::
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     const Travel& travel = mechanism.travel[i];
     const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho.data());
-    const double margin = std::min(value - travel.min, travel.max - value);
+    const double margin = travel_margin(travel, value);
     if (!std::isfinite(margin)) continue;
     const double share = margin / span_of(travel);
     if (!tightest || share < tightest->share) tightest = AxisPlace{i, value, margin, share};

@@ -5,6 +5,7 @@
 #include <limits>
 
 #include "statics/model/home.hpp"
+#include "statics/model/travel_margin.hpp"
 #include "statics/solve/by_parts.hpp"
 #include "statics/solve/kinematics.hpp"
 
@@ -81,7 +82,7 @@ ActuatorJacobian jacobian_of(const Mechanism& mechanism, Kinematics& held, const
 bool within_travel(const Mechanism& mechanism, const Eigen::Ref<const Eigen::VectorXd>& rho) {
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     const double value = shown_value(mechanism.shown, static_cast<Eigen::Index>(i), rho.data());
-    if (!(value >= mechanism.travel[i].min && value <= mechanism.travel[i].max)) return false;
+    if (!(travel_margin(mechanism.travel[i], value) >= 0)) return false;
   }
   return true;
 }

@@ -158,3 +158,13 @@ TEST_CASE("an evaluated word becomes a number if it changes, and stays as it is 
   CHECK(program.evaluated == 4);
   CHECK(program.remarks.size() == 1);
 }
+
+TEST_CASE("ROUND in a word of a shop control, and variables under G66, are not evaluated") {
+  for (const char* const dialect : {"fanuc", "haas"}) {
+    CHECK(evaluated(start + "#1=10.3456\nG1 X[ROUND[#1]]\n", dialect).moves.back().fixed[0]);
+    CHECK_FALSE(evaluated(start + "#1=10.3456\n#2=ROUND[#1]\nG1 X#2\n", dialect).moves.back().fixed[0]);
+  }
+  CHECK_FALSE(evaluated(start + "#1=10.3456\nG1 X[ROUND[#1]]\n").moves.back().fixed[0]);
+  const std::string modal = start + "#100=10.\nG66 P9100 A1.\nG0 X0. Y0.\nG67\nG0 X0. Y0. Z0.\nG1 X#100\n";
+  CHECK(evaluated(modal, "fanuc").moves.back().fixed[0]);
+}

@@ -205,3 +205,40 @@ TEST_CASE(
   }
   CHECK_FALSE(read(frames_start + "G10 L2 P0 X1.\nG1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
 }
+
+TEST_CASE("a shift that ends where states are unknown ends, and one that a condition sets stays in doubt") {
+  const std::string shift = frames_start + "G52 X500. Y0. Z0.\nG0 X0. Y0. Z0.\n";
+  const std::string cut = "G90 G0 X0. Y0. Z0.\nG1 X40.\n";
+  const auto end = [&](const std::string& lines, const char* dialect) {
+    const Program program = read(lines + cut, dialect);
+    REQUIRE(followed(program));
+    return end_in_offset(program).x();
+  };
+  CHECK(end(shift + "/G1 Z0.\nG52 X0. Y0. Z0.\n", "fanuc") == doctest::Approx(40));
+  CHECK(end(shift + "G91 G28 Z0\nG52 X0. Y0. Z0.\n", "linuxcnc") == doctest::Approx(40));
+  CHECK(end(shift + "G55\nG52 X0. Y0. Z0.\n", "fanuc") == doctest::Approx(40));
+  CHECK(end(shift + "G52 X[#1] Y0.\nG52 X0. Y0. Z0.\n", "linuxcnc") == doctest::Approx(40));
+  const std::string set = frames_start + "G92 X500. Y0. Z0.\n";
+  CHECK(end(set + "/G1 Z0.\nG92.1\n", "linuxcnc") == doctest::Approx(40));
+  const std::string condition = "o1 if [#1 EQ 0]\nG92.1\no1 endif\n";
+  CHECK_FALSE(followed(read(set + condition + cut, "linuxcnc")));
+  CHECK_FALSE(followed(read(set + condition + "G54\n" + cut, "linuxcnc")));  // ends no G92
+  CHECK(end(set + condition + "G92.1\nG54\n", "linuxcnc") == doctest::Approx(40));
+  for (const char* const line :
+       {"/G68 X0. Y0. R30.\n", "/G52 X500.\n", "/G52 X500.\nG54\n", "/G68 X0. Y0. R30.\nG54\n"})
+    CHECK_FALSE(followed(read(frames_start + line + cut, "fanuc")));
+  CHECK(followed(read(frames_start + "/G68 X0. Y0. R30.\nG69\nG54\n" + cut, "fanuc")));
+}
+
+TEST_CASE("behind variables and parameters of the control no offset is known") {
+  for (const char* const line :
+       {"#5241=200.\n", "#5221=#5221+200.\n", "#2501=200.\n", "#5201=1.\n", "#[#1]=200.\n", "#2001=100.\n",
+        "G10 L#5 P1 X200.\n", "G10 L50\nN1221 P1 R200.\nG11\n", "IF [#1 EQ 2] THEN #5221=5.\n"}) {
+    CAPTURE(line);
+    CHECK_FALSE(followed(read(frames_start + line + "G54\nG0 X0. Y0. Z0.\nG1 X40.\n", "fanuc")));
+  }
+  for (const char* const line : {"#500=2.\n", "#1100=1.\n", "#3006=1 (LOOK)\n", "G10 L50\nN3202 R16.\nG11\n"})
+    CHECK(followed(read(frames_start + line + "G54\nG0 X0. Y0. Z0.\nG1 X40.\n", "fanuc")));
+  CHECK(followed(read(frames_start + "#5160=2.\n#<depth>=3\nG0 X0. Y0. Z0.\nG1 X40.\n", "linuxcnc")));
+  CHECK_FALSE(followed(read(frames_start + "#5221=2.\nG0 X0. Y0. Z0.\nG1 X40.\n", "linuxcnc")));
+}

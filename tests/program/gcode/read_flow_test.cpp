@@ -140,3 +140,49 @@ TEST_CASE("a block with words behind an assignment or THEN has an unknown effect
   const Program linuxcnc = read("G21 G90\nG0 X0 Y0 Z0\n#1=5 G1 X20 F100\n", "linuxcnc");
   CHECK(linuxcnc.moves.back().end_mm.x() == 20);
 }
+
+TEST_CASE("a feed mode or a tool of a condition or of a skippable block is unknown until it is stated") {
+  const auto is_followed = [](const std::string& lines, const std::string& dialect) {
+    return !is_fixed(read(origin_block + lines, dialect).moves.back());
+  };
+  CHECK_FALSE(is_followed("/G93\nG1 X5. F5\n", "linuxcnc"));
+  CHECK(is_followed("/G93\nG94 G1 X5. F5\n", "linuxcnc"));
+  CHECK_FALSE(is_followed("G93\no1 if [#1 EQ 7]\nG94\no1 endif\nG0 X0. Y0. Z0.\nG1 X5. F5\n", "linuxcnc"));
+  CHECK_FALSE(is_followed("/T2 M6\nG0 X0. Y0. Z0.\nG1 X5.\n", "fanuc"));
+  CHECK(is_followed("/T2 M6\nT3 M6\nG0 X0. Y0. Z0.\nG1 X5.\n", "fanuc"));
+  const std::string choice = "T1\no1 if [#1 EQ 7]\nT2\no1 endif\n";
+  CHECK(is_followed(choice + "G0 X0. Y0. Z0.\nG1 X5.\n", "linuxcnc"));
+  CHECK_FALSE(is_followed(choice + "M6\nG0 X0. Y0. Z0.\nG1 X5.\n", "linuxcnc"));
+  CHECK(is_followed(choice + "T2 M6\nG0 X0. Y0. Z0.\nG1 X5.\n", "linuxcnc"));
+}
+
+TEST_CASE("M99 P and M96 P of shop controls jump to a block number") {
+  for (const char* const line : {"/M99 P100\n", "M99P100\n", "m99 p100\n"}) {
+    CAPTURE(line);
+    CHECK(fixed_moves(line + std::string("G1 X60.\nN100 Y20.\nM30\n"), "fanuc") == Fixed{true, true});
+  }
+  CHECK(fixed_moves("M96 P10 Q8\nG1 X60.\nN10 Y20.\nM30\n", "haas") == Fixed{true, true});
+  CHECK(fixed_moves("M96 P10\nG1 X60.\nM30\n", "fanuc") == Fixed{false});
+  CHECK(fixed_moves("G1 X60. (M99 P100)\nM30\n", "fanuc") == Fixed{false});
+}
+
+TEST_CASE("behind IF only GOTO and an assignment are known") {
+  for (const char* const tail : {"THEN M98 P100", "M98 P100", "THEN M8", "GO 10"}) {
+    CAPTURE(tail);
+    const Program program =
+        read(origin_block + "G1 X50. F100\nIF [#1 EQ 1] " + tail + "\nG1 Y20.\nM30\n", "haas");
+    CHECK(is_fixed(program.moves.back()));
+  }
+  CHECK(fixed_moves("IF [#1 EQ 1] THEN #2=5\nG1 Y20.\nM30\n", "haas") == Fixed{false});
+}
+
+TEST_CASE("H alone changes the tool length while one acts on a shop control, and takes no inserted word") {
+  const auto last = [](const std::string& lines, const std::string& dialect) {
+    return read(origin_block + "G43 H1 Z10.\nG1 X50.\n" + lines, dialect).moves.back();
+  };
+  CHECK_FALSE(last("G1 X60. H2\n", "fanuc").may_insert_words);
+  CHECK_FALSE(last("G1 X60. H0\n", "haas").may_insert_words);
+  CHECK_FALSE(last("G1 X60. H2\nX70.\n", "fanuc").known_start[2]);
+  CHECK(last("G1 X60. H1\nX70.\n", "fanuc").known_start[2]);
+  CHECK(last("G49\nG1 X60. Z1. H2\nX70.\n", "fanuc").known_start[2]);
+}

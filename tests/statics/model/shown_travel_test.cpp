@@ -40,6 +40,15 @@ TEST_CASE("travel is that of the shown values, with their zeros, signs and coupl
   CHECK_FALSE(within_travel(mechanism, degrees(0, -10, 0)));     // J2 = 80
 }
 
+TEST_CASE("the end of a travel is inside of it, to the rounding of solutions") {
+  const Mechanism mechanism = coupled();
+  const double rounding = 1e-12;
+  CHECK(within_travel(mechanism, Eigen::VectorXd(degrees(180, -90, 0).array() + rounding)));
+  CHECK(tightest_axis(mechanism, degrees(180, -90, 0).array() + rounding)->margin == 0);
+  CHECK_FALSE(within_travel(mechanism, degrees(180.0001, -90, 0)));
+  CHECK_FALSE(within_travel(mechanism, degrees(NAN, -90, 0)));
+}
+
 TEST_CASE("the tightest axis and its words have the shown value") {
   const Mechanism mechanism = coupled();
   const auto axis = tightest_axis(mechanism, degrees(0, -120, 111));  // J2 = -30, J3 = -81

@@ -48,7 +48,7 @@ void allow_changes(const Reading& r, Move& move) {
   const bool feed = move.motion == Motion::feed;
   const bool unit =
       b.has(Action::inches) || b.has(Action::millimetres);  // the unit would change an F copied before it
-  const bool tool_length = b.has(Action::tool_length) || b.has(Action::no_tool_length);
+  const bool tool_length = r.sets_tool_length;
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::retract) || b.has(MAction::machine);
   const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own ||
@@ -95,6 +95,10 @@ std::string_view unknown_mode_text(std::uint16_t unknown_modes) {
     return "G90 or G91 is unknown (a condition, a call or a '/' block may have set it)";
   if ((unknown_modes & unknown_cutter) != 0)
     return "G41 or G42 is unknown (a condition, a call or a '/' block may have set it)";
+  if ((unknown_modes & unknown_feed_mode) != 0)
+    return "G93, G94 or G95 is unknown (a condition, a call or a '/' block may have set it)";
+  if ((unknown_modes & unknown_tool) != 0)
+    return "its tool is unknown (a condition, a call or a '/' block may have changed it)";
   return "its motion is unknown (a condition, a call or a '/' block may have set it)";
 }
 

@@ -32,6 +32,7 @@ void apply_feed_mode(Reading& r) {
   }
   if (mode != r.state.feed_mode || r.dialect.feed_mode_ends_feed) r.state.feed = 0;
   r.state.feed_mode = mode;
+  mark_known(r.state, unknown_feed_mode);
 }
 
 void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
@@ -46,14 +47,20 @@ void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
 void state_tool(Reading& r) {
   const bool states = std::ranges::any_of(r.sorted.m, [](const FoundM& m) { return m.code == 61; });
   const Word* q = states ? r.sorted.word('Q') : nullptr;
-  if (q != nullptr) r.state.tool = count_of(*q);
+  if (q == nullptr) return;
+  r.state.tool = count_of(*q);
+  mark_known(r.state, unknown_tool);
 }
 
 void apply_tool(Reading& r) {
   state_tool(r);
   if (const Word* t = r.sorted.word('T')) r.state.tool_chosen = count_of(*t);
   if (!r.sorted.has(MAction::tool_change)) return;
-  r.state.tool = r.state.tool_chosen;
+  r.state.tool = r.state.tool_chosen.value_or(0);
+  if (r.state.tool_chosen)
+    mark_known(r.state, unknown_tool);
+  else
+    r.state.unknown_modes |= unknown_tool;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (r.tool_change_axes[axis]) move_by_machine(r, axis);
   end_contour(r);
