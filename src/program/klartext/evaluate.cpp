@@ -1,8 +1,11 @@
 // Evaluates Q parameters whose values are known from the text, with ReadOptions::evaluate.
 #include "program/evaluate/evaluate.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <charconv>
+#include <cstdlib>
 
 #include "program/evaluate/constant_expression.hpp"
 #include "program/klartext/read.hpp"
@@ -13,13 +16,21 @@ namespace {
 
 constexpr std::size_t most_digits = 2;  // Q0 to Q99; the others belong to the control and to its cycles
 
-/// "q5" of "Q5" at the beginning of `text` (squeezed); empty for other names.
-std::string parameter_at(std::string_view text) {
-  if (!text.starts_with('Q')) return {};
+/// Behind "Q5" at the beginning of `text`.
+std::size_t end_of_parameter(std::string_view text) {
   std::size_t end = 1;
   while (end < text.size() && is_digit(text[end])) ++end;
-  const bool known = end > 1 && end <= 1 + most_digits && (text[1] != '0' || end == 2);
-  return known ? "q" + std::string(text.substr(1, end - 1)) : "";
+  return end;
+}
+
+/// "q5" of "Q5" or "Q05" at the beginning of `text` (squeezed); empty for other names.
+std::string parameter_at(std::string_view text) {
+  if (!text.starts_with('Q')) return {};
+  const std::size_t end = end_of_parameter(text);
+  std::size_t begin = 1;
+  while (begin + 1 < end && text[begin] == '0') ++begin;
+  const bool known = end > begin && end <= begin + most_digits;
+  return known ? "q" + std::string(text.substr(begin, end - begin)) : "";
 }
 
 std::optional<double> value_of(const KlartextReading& r, std::string expression) {
@@ -44,6 +55,12 @@ std::string expression_of(int function, std::string text) {
 void forget_all_in(std::string_view text, KlartextReading& r) {
   for (std::size_t at = 0; at < text.size(); ++at)
     if (const std::string name = parameter_at(text.substr(at)); !name.empty()) r.variables.erase(name);
+}
+
+/// FN 23 and FN 24 (circle data) set the parameter and the two after it.
+void forget_results(int function, const std::string& name, KlartextReading& r) {
+  const int first = std::atoi(name.c_str() + 1), count = function == 23 || function == 24 ? 3 : 1;
+  for (int i = 0; i < count; ++i) r.variables.erase(fmt::format("q{}", first + i));
 }
 
 /// A difference with too many digits gives an unknown position. "DR", "M" and "R" are not positions.
@@ -85,12 +102,14 @@ void take_parameter(const KlartextBlock& block, KlartextReading& r) {
     text.erase(0, colon + 1);
   }
   const std::string name = parameter_at(text);
-  const bool assigns = !name.empty() && text.size() > name.size() && text[name.size()] == '=';
+  const std::size_t equals = end_of_parameter(text);
+  const bool assigns = !name.empty() && equals < text.size() && text[equals] == '=';
+  if (function == 28) return r.variables.clear();  // TABREAD sets a parameter for each column
   if (!assigns) return forget_all_in(text, r);
   const bool runs_once = !may_skip_or_repeat(r) && empty(block.block_delete) && block.parts.size() == 1;
-  const std::string expression = runs_once ? expression_of(function, text.substr(name.size() + 1)) : "";
+  const std::string expression = runs_once ? expression_of(function, text.substr(equals + 1)) : "";
   const std::optional<double> value = expression.empty() ? std::nullopt : value_of(r, expression);
-  r.variables.erase(name);
+  forget_results(function, name, r);
   if (value) r.variables[name] = *value;
 }
 

@@ -128,7 +128,10 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
   r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
-  if (!r.state.cycle_acts_here) move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
+  if (!r.state.cycle_acts_here) {
+    move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
+    r.variables.clear();  // the cycle may call a program that sets them
+  }
   note_uncorrected(r, block.line, "cycles are not corrected");
 }
 
