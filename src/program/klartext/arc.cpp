@@ -80,7 +80,8 @@ Vector3 direction_at_end(const Move& move) {
 void read_klartext_arc(const KlartextBlock& block, KlartextReading& r, Move& move) {
   const KlartextWord* direction = find_word(r.words, "DR");
   const bool direction_known = direction != nullptr && !empty(direction->number);
-  const bool centre_known = block.head == "CR" || r.state.pole;
+  const bool may_move = block.head == "CR" || !r.state.pole || !r.state.pole->must_stay;
+  const bool centre_known = (block.head == "CR" || r.state.pole) && may_move;
   const int normal = block.head == "C" && r.state.pole ? r.state.pole->normal : 2;
   const bool ends_known = has_known_ends(r, move, static_cast<std::size_t>(normal));
   if (direction_known && centre_known && ends_known)
@@ -94,7 +95,9 @@ void read_klartext_arc(const KlartextBlock& block, KlartextReading& r, Move& mov
     r.state.known[axis] = false;
   }
   move.incremental = 0;
-  note_uncorrected(r, block.line, block.head + ": the start or the centre of the arc is unknown");
+  note_uncorrected(r, block.line,
+                   block.head + (may_move ? ": the start or the centre of the arc is unknown"
+                                          : " has a CC that another block uses, which is not followed"));
 }
 
 bool read_klartext_tangent_arc(KlartextReading& r, Move& move) {

@@ -31,8 +31,8 @@ struct KlartextOutline {
   /// Blocks that may run never or several times: bodies of called subprograms, repeated parts, and blocks
   /// skipped by a jump; sorted and disjoint.
   std::vector<PlaceStretch> uncertain;
-  /// Lines of the CC whose pole is used by blocks that are not followed, so that it cannot move with the arcs
-  /// about it; sorted.
+  /// Lines of the CC whose pole is used by blocks that are not followed, so that no arc about it may move it;
+  /// sorted.
   std::vector<int> poles;
 };
 

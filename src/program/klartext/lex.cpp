@@ -17,10 +17,10 @@ namespace {
 constexpr double largest_klartext_number = 99999.9999;
 
 // Longer keys before their own prefixes.
-constexpr std::array<std::string_view, 37> klartext_keys{
-    "LEN", "CCA", "IPA", "IPR", "PA", "PR", "FMAX", "FAUTO", "DR", "RL", "RR", "IX", "IY",
-    "IZ",  "IA",  "IB",  "IC",  "IU", "IV", "IW",   "FU",    "FZ", "FT", "X",  "Y",  "Z",
-    "A",   "B",   "C",   "U",   "V",  "W",  "R",    "F",     "MB", "M",  "S"};
+constexpr std::array<std::string_view, 38> klartext_keys{
+    "LEN", "LA", "CCA", "IPA", "IPR", "PA", "PR", "FMAX", "FAUTO", "DR", "RL", "RR", "IX",
+    "IY",  "IZ", "IA",  "IB",  "IC",  "IU", "IV", "IW",   "FU",    "FZ", "FT", "X",  "Y",
+    "Z",   "A",  "B",   "C",   "U",   "V",  "W",  "R",    "F",     "MB", "M",  "S"};
 
 char klartext_upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
@@ -184,6 +184,11 @@ bool take_name(WordScanner& s, std::string_view name) {
   return true;
 }
 
+/// LA is the number of blocks of M120.
+bool follows_look_ahead(const std::vector<KlartextWord>& words) {
+  return !words.empty() && words.back().key == "M" && words.back().value == 120;
+}
+
 bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   if (s.peek() == '(') {  // a comment
     s.at = std::min(s.text.find(')', s.at), s.end - 1) + 1;
@@ -191,6 +196,7 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   }
   const std::string_view key = key_at(s);
   if (key.empty()) return false;
+  if (key == "LA" && !follows_look_ahead(words)) return false;
   KlartextWord word;
   word.incremental = key.size() == 2 && key[0] == 'I';
   word.key = key.substr(word.incremental ? 1 : 0);

@@ -165,6 +165,7 @@ void forget_klartext_skippable(const KlartextBlock& block, KlartextReading& r, c
 /// The arc about a pole may change the words of its CC. Later arcs use the pole as the arc has left it. If
 /// the arc is not changed, or may be skipped, the CC must not be edited.
 void use_pole(KlartextReading& r, const Move& move) {
+  if (r.state.pole->must_stay) return;
   const bool taken = move.arc && (move.words[0] || move.words[1] || move.words[2]) && !move.block_delete;
   if (!taken) return r.state.pole.reset();
   r.state.pole->just_set = false;

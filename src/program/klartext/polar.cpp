@@ -115,6 +115,7 @@ std::string place_arc(const PolarWords& words, KlartextReading& r, const Move& m
 std::string place_circle(const PolarWords& words, KlartextReading& r, Move& move) {
   const KlartextPole& pole = *r.state.pole;
   const KlartextWord* direction = find_word(r.words, "DR");
+  if (pole.must_stay) return "CP has a CC that another block uses, which is not followed: give CC before CP";
   if (!r.state.tool_along_z) return "CP with a tool that is not along Z is not supported";
   if (direction == nullptr || empty(direction->number)) return "CP has no DR+ or DR-";
   for (const std::size_t axis : plane_axes(pole.normal))
@@ -173,7 +174,7 @@ void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
   r.state.pole.reset();
   const bool unfollowed = std::binary_search(r.outline.poles.begin(), r.outline.poles.end(), block.line);
   const bool lexed = read_words(block, r);
-  if (!lexed || r.words.size() != 2 || unfollowed || !empty(block.block_delete)) return;
+  if (!lexed || r.words.size() != 2 || !empty(block.block_delete)) return;
   KlartextPole pole;
   pole.just_set = true;
   pole.set_at = r.moves_read;
@@ -192,8 +193,10 @@ void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
     pole.incremental = pole.incremental || word->incremental;
   }
   if (axes != 2) return;
+  pole.must_stay = unfollowed;
   const bool mixed = r.words[0].incremental != r.words[1].incremental;
-  if (mixed) pole.just_set = pole.incremental = false;  // known, but not a pole whose words can move it
+  if (mixed || unfollowed)
+    pole.just_set = pole.incremental = false;  // known, but not a pole whose words can move it
   r.state.pole = pole;
 }
 

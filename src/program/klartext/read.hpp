@@ -17,6 +17,7 @@ struct KlartextPole {
   int normal = 2;  ///< axis normal to its plane
   std::array<PackedAxisWord, 3> words{};
   bool just_set = false;                       ///< not used yet: the words may be changed for the next arc
+  bool must_stay = false;                      ///< a block that is not followed uses it: no arc may move it
   bool incremental = false;                    ///< the words are relative to the tool's position at `set_at`
   std::size_t set_at = 0;                      ///< number of moves read before it
   std::optional<double> radius_mm{}, angle{};  ///< of the last polar coordinates about it (mm, rad)

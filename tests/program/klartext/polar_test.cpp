@@ -104,6 +104,13 @@ TEST_CASE("klartext: unknown polar coordinates are fixed, with the reason and th
     CHECK(program.moves.at(1).fixed == std::array<bool, 3>{true, true, true});
     CHECK(program.left_alone.at(0).why.starts_with(why));
   }
+  const Program shared =
+      read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+4 Y+0", "LP PR+10 PA+0", "LP IPR+5 IPA+90",
+                     "C X+4 Y-15 DR+", "LP PR+9 PA+0", "CTP PR+10 PA+20"}));
+  CHECK((shared.moves.at(2).end_mm - Vector3(4, 15, 5)).norm() < 1e-12);
+  CHECK_FALSE(shared.moves.at(3).arc);
+  CHECK((shared.moves.at(4).end_mm - Vector3(13, 0, 5)).norm() < 1e-12);
+  CHECK(shared.left_alone.at(0).why == "C has a CC that another block uses, which is not followed");
   const Program no_pole = read(klartext({"L X+10 Y+0 Z+5 FMAX", "CC X+Q4 Y+0", "CP IPA+90 DR+"}));
   CHECK(no_pole.left_alone.at(0).why.starts_with("CP needs a known pole"));
 }

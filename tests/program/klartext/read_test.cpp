@@ -30,6 +30,11 @@ TEST_CASE("klartext: blocks may have N words, and brackets behind words are comm
         "F200\nN4 L Y+20\nN5 END PGM A MM\n");
 }
 
+TEST_CASE("klartext: LA is the number of blocks of M120") {
+  CHECK(all_known(read(klartext({"L X+0 Y+0 Z+50 R0 FMAX M3 M120 LA5"})).moves.at(0).known_end));
+  CHECK(read(klartext({"L X+0 Y+0 Z+50 R0 FMAX M3 LA5"})).moves.at(0).fixed[0]);
+}
+
 TEST_CASE("klartext: L moves with modal feed, rapid for one block, points and commas") {
   const Program program = read(klartext({"TOOL CALL 3 Z S2500", "L X+10 Y-2,5 Z+50 R0 FMAX M3", "L Z-1. F250",
                                          "L IX+5", "L X+20 F MAX", "L Y1"}));
