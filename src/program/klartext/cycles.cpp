@@ -152,23 +152,6 @@ void turn_coordinates(const KlartextBlock& block, const CycleNumber& number, Kla
   set_displacement(r, number.cycle, acts, "mirrored, scaled or tilted coordinates");
 }
 
-void select_preset(const KlartextBlock& block, KlartextReading& r) {
-  std::string definition;
-  for (const Span& line : block.parts) definition += squeezed(part(r.program.text, line));
-  const std::size_t q = definition.find("Q339=");
-  const std::string preset = q == std::string::npos ? "?" : definition.substr(q + 5);
-  end_frame(r);
-  r.state.known.fill(false);
-  r.state.run_begin = r.program.moves.size();
-  if (r.state.preset.empty()) {
-    r.state.preset = preset;
-    add_remark(r.program, line_of_file(r.program.expansion, block.line),
-               fmt::format("CYCL DEF 247 selects preset {}", preset));
-    return;
-  }
-  set_displacement(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
-}
-
 void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   const CycleNumber number = number_of(r.program.text, block);
   const int cycle = number.cycle;
@@ -189,7 +172,7 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   r.state.calls_each = false;  // a new cycle ends M89
   r.state.cycle_acts_here = stays_where_called(cycle);
   r.state.surface.reset();
-  const bool runs_once = empty(block.block_delete) && !may_skip_or_repeat(r);
+  const bool runs_once = !may_not_run(block, r);
   r.state.cycle_is_relative = counts_from_tool(cycle) && r.state.tool_along_z && runs_once;
   r.state.cycle_returns = returns_to_start(cycle);
   r.state.takes_surface = counts_from_surface(cycle) && runs_once;
@@ -239,8 +222,7 @@ bool take_hole(KlartextReading& r, Move& move) {
 }
 
 void read_cycle_parameter(const KlartextBlock& block, KlartextReading& r) {
-  const bool followed = r.state.takes_surface && empty(block.block_delete) && !may_skip_or_repeat(r) &&
-                        r.state.displacements.empty();
+  const bool followed = r.state.takes_surface && !may_not_run(block, r) && r.state.displacements.empty();
   read_clearances(block, r, followed);
   if (r.state.plunging_feed_mm_min > 0 && names(block, "Q206", r)) {
     if (followed)

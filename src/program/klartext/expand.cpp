@@ -83,7 +83,7 @@ class KlartextExpander {
       if (calls && flow.name == "Q") refuse(block.line, "the label is a Q parameter");
       if (calls && !empty(block.block_delete)) refuse(block.line, "'/' may skip the call");
       if (flow.repeats < 1) refuse(block.line, "REP needs an integer from 1");
-    } else if (block.head == "END" || has_end_code(words_of(block, rest))) {
+    } else if (block.head == "END" || (empty(block.block_delete) && has_end_code(words_of(block, rest)))) {
       flow.role = Role::end;
     } else if (rest.find("GOTOLBL") != std::string::npos) {
       refuse(block.line, "the program jumps to a label");

@@ -1,5 +1,7 @@
-// Shifts (CYCL DEF 7) and rotations about Z (CYCL DEF 10) of the coordinates.
+// Shifts (CYCL DEF 7), rotations about Z (CYCL DEF 10) of the coordinates and presets.
 #include "program/gcode/frames.hpp"
+
+#include <fmt/format.h>
 
 #include <algorithm>
 
@@ -7,6 +9,7 @@
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "program/dialect.hpp"
+#include "program/gcode/remarks.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"
 
@@ -29,9 +32,14 @@ void enter_frame(KlartextReading& r) {
   state.run_begin = r.program.moves.size();
 }
 
-/// A cycle that a jump may skip or repeat, or that '/' may skip.
-bool may_not_run(const KlartextBlock& block, const KlartextReading& r) {
-  return !empty(block.block_delete) || may_skip_or_repeat(r);
+/// Whether no displacement acts but that of cycle 10, which a plain number ends.
+bool may_turn(const KlartextReading& r) {
+  const auto& displaced = r.state.displacements;
+  return displaced.size() == displaced.count(10);
+}
+
+bool is_turned(const KlartextState& state) {
+  return state.turn_rad != 0 || state.displacements.contains(10);
 }
 
 }  // namespace
@@ -63,7 +71,7 @@ void shift_datum(const KlartextBlock& block, bool lexed, KlartextReading& r) {
   }
   // A second equal shift does not make the first one known.
   const bool shifts_turned =
-      state.turn_rad != 0 && (state.shift_mm != before || state.displacements.contains(7));
+      is_turned(state) && (state.shift_mm != before || state.displacements.contains(7));
   const auto& unfollowed = state.unfollowed_shift;
   const bool acts = !lexed || shifts_turned ||
                     std::any_of(unfollowed.begin(), unfollowed.end(), [](bool on) { return on; });
@@ -81,10 +89,14 @@ void turn_frame(const KlartextBlock& block, std::string_view rest, KlartextReadi
   std::replace(number.begin(), number.end(), ',', '.');
   if (number.starts_with('+')) number.erase(0, 1);
   const std::optional<double> angle = read_number(number);
-  const bool followed =
-      angle && r.state.tool_along_z && !may_not_run(block, r) && r.state.displacements.empty();
-  if (!followed && angle != 0.0) {
-    set_displacement(r, 10, true, "CYCL DEF 10 turns coordinates by more than a plain number about Z");
+  if (angle == 0.0 && !is_turned(r.state)) return;
+  const bool stated = angle && !may_not_run(block, r) && !(incremental && r.state.displacements.contains(10));
+  const bool followed = stated && ((r.state.tool_along_z && may_turn(r)) || (angle == 0.0 && !incremental));
+  if (!followed) {
+    set_displacement(r, 10, true,
+                     may_not_run(block, r)
+                         ? "coordinates are turned in a block that a jump or '/' may skip"
+                         : "CYCL DEF 10 turns coordinates by more than a plain number about Z");
     return;
   }
   set_displacement(r, 10, false, "");
@@ -96,6 +108,25 @@ void end_frame(KlartextReading& r) {
   r.state.shift_mm.setZero();
   r.state.turn_rad = 0;
   enter_frame(r);
+}
+
+void select_preset(const KlartextBlock& block, KlartextReading& r) {
+  if (may_not_run(block, r))
+    return set_displacement(r, 247, true, "a preset is selected in a block that a jump or '/' may skip");
+  std::string definition;
+  for (const Span& line : block.parts) definition += squeezed(part(r.program.text, line));
+  const std::size_t q = definition.find("Q339=");
+  const std::string preset = q == std::string::npos ? "?" : definition.substr(q + 5);
+  end_frame(r);
+  r.state.known.fill(false);
+  r.state.run_begin = r.program.moves.size();
+  if (r.state.preset.empty()) {
+    r.state.preset = preset;
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("CYCL DEF 247 selects preset {}", preset));
+    return set_displacement(r, 247, false, "");
+  }
+  set_displacement(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
 }
 
 }  // namespace counterflex

@@ -285,7 +285,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     r.state.after_contour = true;
   }
   if (codes.retracts) apply_retract(block, r);
-  r.ended = r.ended || codes.ends;
+  r.ended = r.ended || (codes.ends && !may_not_run(block, r));
 }
 
 void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
@@ -297,7 +297,7 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not supported");
   if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
   if (found.retracts) apply_retract(block, r);
-  r.ended = r.ended || found.ends;
+  r.ended = r.ended || (found.ends && !may_not_run(block, r));
 }
 
 }  // namespace counterflex

@@ -174,7 +174,7 @@ void read_klartext_pole(const KlartextBlock& block, KlartextReading& r) {
   r.state.pole.reset();
   const bool unfollowed = std::binary_search(r.outline.poles.begin(), r.outline.poles.end(), block.line);
   const bool lexed = read_words(block, r);
-  if (!lexed || r.words.size() != 2 || !empty(block.block_delete)) return;
+  if (!lexed || r.words.size() != 2 || may_not_run(block, r)) return;
   KlartextPole pole;
   pole.just_set = true;
   pole.set_at = r.moves_read;

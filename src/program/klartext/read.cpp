@@ -73,7 +73,7 @@ void read_corner(const KlartextBlock& block, KlartextReading& r) {
   const std::optional<double> size =
       kind == CornerKind::round ? number_behind(rest, 'R') : number_behind('=' + rest, '=');
   const double unit = mm_per(r.state.unit.value_or(LengthUnit::millimetres));
-  r.state.corner = CornerSize{size.value_or(NAN) * unit, kind};
+  r.state.corner = CornerSize{may_not_run(block, r) ? NAN : size.value_or(NAN) * unit, kind};
   if (r.program.moves.empty()) return;
   Move& last = r.program.moves.back();
   last.may_split = last.may_jump = false;
@@ -101,7 +101,6 @@ void read_plane(const KlartextBlock& block, KlartextReading& r) {
   if (!resets) r.state.displacements[19] = "coordinates are tilted";
 }
 
-/// FN9 to FN12 jump, the others compute, print or read. They do not move an axis.
 void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
 /// The words of a cycle are parameters: if one is computed, it differs from its definition.
@@ -183,8 +182,6 @@ void read_comments(const KlartextBlock& block, KlartextReading& r) {
   }
 }
 
-}  // namespace
-
 /// A block that is neither a move nor a cycle may set parameters of the defined cycle.
 void mark_definition_changed(const KlartextBlock& block, KlartextReading& r) {
   constexpr std::array<std::string_view, 11> harmless{"L",  "LP",  "C",   "CP",   "CR", "CT",
@@ -193,17 +190,30 @@ void mark_definition_changed(const KlartextBlock& block, KlartextReading& r) {
     r.state.surface->repeatable = false;
 }
 
-void read_statement(const KlartextBlock& block, KlartextReading& r) {
-  read_comments(block, r);
-  if (block.parts.empty()) return;
-  ++r.program.block_count;
+void read_known_or_not(const KlartextBlock& block, KlartextReading& r) {
   const auto known = std::find_if(statement_readers.begin(), statement_readers.end(),
                                   [&](const KnownStatement& s) { return s.head == block.head; });
-  mark_definition_changed(block, r);
   if (known != statement_readers.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
   add_unfollowed_move(block, r,
                       fmt::format("{} is not supported", block.head.empty() ? "the block" : block.head));
+}
+
+}  // namespace
+
+void read_statement(const KlartextBlock& block, KlartextReading& r) {
+  read_comments(block, r);
+  if (block.parts.empty()) return;
+  ++r.program.block_count;
+  mark_definition_changed(block, r);
+  if (!may_not_run(block, r)) return read_known_or_not(block, r);
+  const KlartextState before = r.state;
+  read_known_or_not(block, r);
+  mark_changes_unknown(before, r.state);
+}
+
+bool may_not_run(const KlartextBlock& block, const KlartextReading& r) {
+  return !empty(block.block_delete) || may_skip_or_repeat(r);
 }
 
 bool may_skip_or_repeat(const KlartextReading& r) {

@@ -102,6 +102,13 @@ void take_parameter(const KlartextBlock& block, KlartextReading& reading);
 /// Whether the block being read may run never or several times.
 bool may_skip_or_repeat(const KlartextReading& reading);
 
+/// Whether the block being read may run never or several times, or '/' may skip it.
+bool may_not_run(const KlartextBlock& block, const KlartextReading& reading);
+
+/// Behind a block that may not run, states that it has changed since `before` are unknown until a block that
+/// runs sets them. Coordinates that it has reset stay displaced.
+void mark_changes_unknown(const KlartextState& before, KlartextState& now);
+
 /// L, C, CR, CT, LP and CP.
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& reading);
 
@@ -154,6 +161,9 @@ void turn_frame(const KlartextBlock& block, std::string_view rest, KlartextReadi
 
 /// Ends shift and rotation.
 void end_frame(KlartextReading& reading);
+
+/// CYCL DEF 247. Unknown if it may not run.
+void select_preset(const KlartextBlock& block, KlartextReading& reading);
 
 /// CYCL DEF and CYCL CALL.
 void read_klartext_cycle(const KlartextBlock& block, KlartextReading& reading);
