@@ -1,4 +1,4 @@
-// Shifts (CYCL DEF 7), rotations about Z (CYCL DEF 10) of the coordinates and presets.
+// Shifts (CYCL DEF 7) and rotations about Z (CYCL DEF 10) of the coordinates, presets and TRANS.
 #include "program/gcode/frames.hpp"
 
 #include <fmt/format.h>
@@ -17,6 +17,7 @@ namespace counterflex {
 namespace {
 
 constexpr std::string_view shifted_axes = "XYZABCUVW";
+constexpr int trans_datum = 1007, trans_other = 1008;  // numbers of displacements, no cycles
 
 /// Converts a known position after a shift of the coordinates. After a rotation X and Y are unknown.
 void enter_frame(KlartextReading& r) {
@@ -40,6 +41,20 @@ bool may_turn(const KlartextReading& r) {
 
 bool is_turned(const KlartextState& state) {
   return state.turn_rad != 0 || state.displacements.contains(10);
+}
+
+/// TRANS DATUM RESET ends each shift.
+void end_shift(const KlartextBlock& block, KlartextReading& r) {
+  KlartextState& state = r.state;
+  const bool shifted = !state.shift_mm.isZero(0) || state.displacements.contains(7) ||
+                       state.displacements.contains(trans_datum);
+  if (shifted && (is_turned(state) || may_not_run(block, r)))
+    return set_displacement(r, trans_datum, true,
+                            "TRANS DATUM RESET in turned coordinates, or not always run");
+  state.unfollowed_shift.fill(false);
+  state.shift_mm.setZero();
+  for (const int number : {7, trans_datum}) set_displacement(r, number, false, "");
+  enter_frame(r);
 }
 
 }  // namespace
@@ -108,6 +123,16 @@ void end_frame(KlartextReading& r) {
   r.state.shift_mm.setZero();
   r.state.turn_rad = 0;
   enter_frame(r);
+}
+
+void read_transformation(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const bool datum = rest.starts_with("DATUM"), resets = rest.ends_with("RESET");
+  if (datum && resets) return end_shift(block, r);
+  if (datum) return set_displacement(r, trans_datum, true, "TRANS DATUM shifts coordinates");
+  // Another reset changes nothing, or leaves coordinates unknown that are unknown.
+  if (resets && !(rest.starts_with("ROTATION") && r.state.turn_rad != 0)) return;
+  set_displacement(r, trans_other, true, "TRANS mirrors, rotates or scales coordinates");
 }
 
 void select_preset(const KlartextBlock& block, KlartextReading& r) {

@@ -103,9 +103,21 @@ void read_plane(const KlartextBlock& block, KlartextReading& r) {
 
 void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
+/// FN 17 and FN 25 write data of the control, such as the datum.
+void watch_system_data(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const bool writes = rest.starts_with("17:"), sets_datum = rest.starts_with("25:");
+  if (block.head != "FN" || (!writes && !sets_datum)) return;
+  const char* const what = writes ? "FN 17: SYSWRITE may change the coordinates"
+                                  : "FN 25: PRESET sets the datum: coordinates are unknown";
+  set_displacement(r, writes ? 1017 : 1025, true, what);
+  add_remark(r.program, line_of_file(r.program.expansion, block.line), what);
+}
+
 /// The words of a cycle are parameters: if one is computed, it differs from its definition.
 void read_parameter(const KlartextBlock& block, KlartextReading& r) {
   take_parameter(block, r);
+  watch_system_data(block, r);
   if (block.head == "Q") return read_cycle_parameter(block, r);
   const std::string_view computed = after_head(r.program.text, block);
   if (computed.find("203") != std::string_view::npos) r.state.surface.reset();
@@ -139,6 +151,7 @@ constexpr std::array statement_readers{
     KnownStatement{"APPR", read_klartext_approach},
     KnownStatement{"DEP", read_klartext_approach},
     KnownStatement{"PLANE", read_plane},
+    KnownStatement{"TRANS", read_transformation},
     KnownStatement{"BEGIN", read_begin},
     KnownStatement{"END", read_end},
     KnownStatement{"BLK", read_nothing},

@@ -162,6 +162,10 @@ void turn_frame(const KlartextBlock& block, std::string_view rest, KlartextReadi
 /// Ends shift and rotation.
 void end_frame(KlartextReading& reading);
 
+/// TRANS DATUM, MIRROR, ROTATION and SCALE: the coordinates are unknown. TRANS DATUM RESET ends that of TRANS
+/// DATUM.
+void read_transformation(const KlartextBlock& block, KlartextReading& reading);
+
 /// CYCL DEF 247. Unknown if it may not run.
 void select_preset(const KlartextBlock& block, KlartextReading& reading);
 

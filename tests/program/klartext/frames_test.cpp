@@ -40,6 +40,30 @@ TEST_CASE("klartext: moves in shifted, rotated and tilted coordinates are fixed 
   }
 }
 
+TEST_CASE("klartext: coordinates are unknown behind TRANS and behind data that the program writes") {
+  const auto last = [](const std::string& block) {
+    return read(klartext({block, "L X+0 Y+0 Z+5 FMAX", "L X+10 F100"})).moves.back();
+  };
+  for (const char* block :
+       {"TRANS DATUM AXIS Y+500", "TRANS DATUM TABLE TABLINE5", "TRANS MIRROR AXIS X",
+        "TRANS ROTATION ROT+90", "TRANS SCALE SCL0.9", "TRANS DATUM RESET\nTRANS SCALE SCL2",
+        "FN 25: PRESET = Y/+5/+500", "FN 17: SYSWRITE ID 210 NR3 IDX0 = +30",
+        "CYCL DEF 10.1 ROT+90\nTRANS ROTATION RESET"}) {
+    CAPTURE(block);
+    CHECK(last(block).fixed[0]);
+    CHECK_FALSE(last(block).known_end[0]);
+  }
+  for (const char* block :
+       {"TRANS DATUM RESET", "TRANS DATUM AXIS Y+500\nTRANS DATUM RESET", "TRANS MIRROR RESET",
+        "TRANS ROTATION RESET", "TRANS SCALE RESET", "CYCL DEF 7.1 X+Q1\nTRANS DATUM RESET"}) {
+    CAPTURE(block);
+    CHECK(all_known(last(block).known_start));
+    CHECK(last(block).words[0]);
+  }
+  const Program preset = read(klartext({"FN 25: PRESET = Y/+5/+500", "L X+0 Y+0 Z+5 FMAX"}));
+  CHECK(preset.remarks.at(0).what == "FN 25: PRESET sets the datum: coordinates are unknown");
+}
+
 TEST_CASE("klartext: a datum shift by plain numbers is a frame, and the words stay in it") {
   const Program program = read(klartext(
       {"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 X+10", "CYCL DEF 7.2 IY-5",

@@ -30,6 +30,7 @@ TEST_CASE("klartext: coordinates that a block may have reset are unknown until a
                                    {"CYCL DEF 7.1 Y+500", "CYCL DEF 7.1 Y+0"},
                                    {"CYCL DEF 247 Q339=+1", "CYCL DEF 247 Q339=+2"},
                                    {"CYCL DEF 7.1 Y+500", "CYCL DEF 247 Q339=+1"},
+                                   {"TRANS DATUM AXIS Y+500", "TRANS DATUM RESET"},
                                    {"M128", "M129"},
                                    {"PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY", "PLANE RESET STAY"}}) {
     for (const std::string& doubtful : maybe(reset)) {
