@@ -88,6 +88,8 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
   else if (squeezed(after_head(r.program.text, block)).starts_with("LBL"))
     why += " (--expand-subprograms replaces the call by its text)";
   add_unfollowed_move(block, r, why);
+  add_remark(r.program, line_of_file(r.program.expansion, block.line),
+             "assumed: called programs do not change the datum, the coordinates and the tool");
 }
 
 void read_plane(const KlartextBlock& block, KlartextReading& r) {

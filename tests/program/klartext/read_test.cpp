@@ -117,6 +117,14 @@ TEST_CASE("klartext: a block that is not followed is a move fixed on all axes, w
   }
 }
 
+TEST_CASE("klartext: the report shows what is assumed of calls") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "CALL LBL 4", "CALL PGM B.H", "L X+3"}));
+  REQUIRE(program.remarks.size() == 1);
+  CHECK(program.remarks[0].line == 3);
+  CHECK(program.remarks[0].what ==
+        "assumed: called programs do not change the datum, the coordinates and the tool");
+}
+
 TEST_CASE("klartext: blocks that a label repeats, calls or skips are not corrected") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "LBL 1", "L X+5 F100", "L IX+5", "CALL LBL 1 REP 2",
