@@ -6,6 +6,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "program/siemens/names.hpp"
+#include "program/siemens/signs.hpp"
 #include "program/siemens/values.hpp"
 
 namespace counterflex {
@@ -69,7 +70,7 @@ bool lex_structure(Scanner& s, std::string_view name) {
   const bool alone = s.at == s.end || s.peek() == ';';
   const std::size_t rest = s.at;
   skip_siemens_rest(s);
-  const bool jump = s.text.substr(rest, s.at - rest).find("GOTO") != std::string_view::npos;
+  const bool jump = siemens_jumps(s.text.substr(rest, s.at - rest));
   // A part that is repeated by labels makes the whole program a body, as jumps do.
   const bool repeats_part = is_word(name, "REPEATB") || (is_word(name, "REPEAT") && !alone);
   if (!jump && !repeats_part && !is_word(name, "PROC")) s.block.flow_keyword = keyword;

@@ -10,11 +10,14 @@ namespace {
 
 constexpr std::size_t searched = 1 << 16;  // bytes
 
-/// The part of a line before its comment, without text in round brackets.
+/// The part of a line before its comment in upper case, without text in round brackets or quotes.
 std::string statements_of(std::string_view line) {
   std::string kept;
   int depth = 0;
+  bool quoted = false;
   for (const char c : line) {
+    if (c == '"') quoted = !quoted;
+    if (quoted) continue;
     if (c == ';') break;
     if (c == '(') kept += c, ++depth;
     if (c == ')' && depth > 0) --depth;
@@ -57,8 +60,7 @@ bool siemens_jumps(std::string_view text) {
   Block block;
   while (next_line(text, block)) {
     const std::string_view line = part(text, block.span);
-    if (line.find("GOTO") == std::string_view::npos && line.find("REPEAT") == std::string_view::npos)
-      continue;
+    if (!may_have_names(line)) continue;
     const std::string words = statements_of(line);
     if (words.find("GOTO") != std::string::npos) return true;
     const std::size_t repeat = words.find("REPEAT");

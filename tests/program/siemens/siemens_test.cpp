@@ -297,3 +297,27 @@ TEST_CASE("siemens: assignments alone do not move, and an axis with a number is 
   }
   CHECK(siemens(std::string(siemens_start) + "G1 X1=20 F100\n").moves.back().fixed[0]);
 }
+
+namespace {
+
+/// Why the last move is not followed; empty if it is.
+std::string why_last(const std::string& lines) {
+  const Program program = siemens(std::string(siemens_start) + lines);
+  const Move& last = program.moves.back();
+  if (!last.fixed[0] && !last.fixed[1] && !last.fixed[2]) return {};
+  return program.left_alone.empty() ? "?" : program.left_alone.back().why;
+}
+
+}  // namespace
+
+TEST_CASE("siemens: jumps and repeated parts in lower case make the program a body") {
+  const std::string tail = "TRANS Y500\naa: G0 X5 Y5 Z5\n";
+  for (const std::string jump : {"gotof aa\n", "GotoF aa\n", "if R1==1 gotof aa\n", "case R2 of 1 gotof aa\n",
+                                 "MSG(\"A(;B\") gotof aa\n"}) {
+    CAPTURE(jump);
+    CHECK(why_last(jump + tail).starts_with("the program jumps"));
+  }
+  CHECK(why_last("aa: G0 X5 Y5 Z5\nbb: G0 Z50\nrepeat aa bb P=2\n").starts_with("the program jumps"));
+  CHECK(why_last("MSG(\"gotof aa\")\n; gotof aa\nG0 X5 Y5 Z5\n").empty());
+  CHECK(why_last("repeat\nX1\nuntil R1==1\nG0 X5 Y5 Z5\n").empty());
+}
