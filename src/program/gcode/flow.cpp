@@ -150,6 +150,7 @@ void read_structure(const Block& block, Reading& r, const FlowLine& line) {
 }  // namespace
 
 void read_flow(const Block& block, Reading& r) {
+  r.body.begun = 0;
   const std::string_view text = r.program.text;
   const FlowLine line{std::string(part(text, block.flow_name)), part(text, block.flow_keyword)};
   if (r.dialect.sinumerik_words) return read_structure(block, r, line);

@@ -170,18 +170,33 @@ bool is_plain_frame(const Block& block, const Reading& r, bool turns) {
   return !turns || (value_of(block, 'X') == 0 && value_of(block, 'Y') == 0);
 }
 
+/// TRANS, ROT, SCALE or MIRROR alone in a block that runs exactly once: all frames end.
+bool ends_frames(const Block& block, const Reading& r) {
+  const bool adds = block.statement == Statement::added_shift || block.statement == Statement::added_turn;
+  const auto is_number = [](const Word& word) { return word.letter == 'N'; };
+  return block.statement_is_bare && !adds && !r.in_body() && empty(block.block_delete) &&
+         std::all_of(block.words.begin(), block.words.end(), is_number);
+}
+
+/// Whether the words of the statement are followed.
+bool is_followed_frame(const Block& block, const Reading& r, bool turns, bool adds) {
+  return block.statement != Statement::frame && is_plain_frame(block, r, turns) &&
+         (!adds || (r.state.displaced & framed) == 0);
+}
+
 }  // namespace
 
 bool apply_frame_statement(const Block& block, Reading& r) {
   const Statement what = block.statement;
   const bool turns = what == Statement::turn || what == Statement::added_turn;
   const bool adds = what == Statement::added_shift || what == Statement::added_turn;
-  if (!is_plain_frame(block, r, turns) || (adds && (r.state.displaced & framed) != 0)) return false;
+  const bool ends = ends_frames(block, r);
+  if (!ends && !is_followed_frame(block, r, turns, adds)) return false;
   FrameShifts& shifts = r.state.shifts;
   if (!adds) shifts.local_mm.setZero(), shifts.turn_rad = 0;
   if (turns) {
     shifts.turn_rad += (value_of(block, 'Z') + value_of(block, 'R')) * deg;
-  } else {
+  } else if (!ends) {
     const Vector3 words(value_of(block, 'X'), value_of(block, 'Y'), value_of(block, 'Z'));
     shifts.local_mm += turn_about_z(shifts.turn_rad) * words * mm_per(*r.state.unit);
   }

@@ -27,8 +27,8 @@ bool has_local_shift(const Reading& reading);
 /// Reads G10 L2 and L20 with plain numbers. False if the block cannot be followed.
 bool set_work_offset(const Block& block, Reading& reading);
 
-/// Reads TRANS, ATRANS, ROT and AROT of a Sinumerik about Z with plain numbers. False if the block cannot be
-/// followed.
+/// Reads TRANS, ATRANS, ROT and AROT of a Sinumerik about Z with plain numbers, and the end of all frames by
+/// TRANS, ROT, SCALE or MIRROR alone. False if the block cannot be followed.
 bool apply_frame_statement(const Block& block, Reading& reading);
 
 }  // namespace counterflex

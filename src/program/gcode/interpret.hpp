@@ -24,6 +24,9 @@ struct Body {
   bool chooses_tool = false;        ///< so does T
   bool subprogram = false;  ///< the outermost structure is a subprogram, which does not run at its place
   bool jumps = false;       ///< GOTO makes the whole program a body
+  /// Bits of Displacement that began behind the last line of flow: another block of the same run may end
+  /// them.
+  std::uint16_t begun = 0;
 };
 
 /// State of the reader between blocks. `program` grows. Only moves of an unfinished contour are changed

@@ -16,15 +16,50 @@ bool is_length_word(const Word& word) {
   return word.letter >= 'X' && word.letter <= 'Z';
 }
 
-/// Begins or ends a displacement of programmed coordinates.
-void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit, bool acts) {
-  const bool acted = (r.state.displaced & bit) != 0;
-  const auto others = static_cast<std::uint16_t>(r.state.displaced & ~bit);
-  r.state.displaced = acts ? static_cast<std::uint16_t>(others | bit) : others;
-  if (!acts && !acted) return;
+/// Whether a displacement of this kind may be active.
+bool is_displaced(const Reading& r, std::uint16_t bit) {
+  const FrameShifts& shifts = r.state.shifts;
+  const bool is_shifted = bit == framed && (shifts.turn_rad != 0 || !shifts.local_mm.isZero(0));
+  return (r.state.displaced & bit) != 0 || is_shifted || (bit == modal_macro && r.called);
+}
+
+/// Begins a displacement of programmed coordinates that is not followed.
+void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit) {
+  if (empty(block.block_delete) && !is_displaced(r, bit)) r.body.begun |= bit;
+  r.state.displaced |= bit;
   r.state.known.fill(false);
   end_contour(r);
-  if (acts) note_uncorrected(block, r, why_not_followed(r));
+  note_uncorrected(block, r, why_not_followed(r));
+}
+
+/// Ends it. A block that may not run, or not at this place, leaves it unknown, unless it ends what the blocks
+/// before it have begun.
+void end_displacement(const Block& block, Reading& r, std::uint16_t bit) {
+  if (!is_displaced(r, bit)) return;
+  const bool ends = empty(block.block_delete) && (!r.in_body() || (r.body.begun & bit) != 0);
+  if (!ends) return displace_by_statement(block, r, bit);
+  if ((r.state.displaced & bit) == 0) return;
+  r.state.displaced &= static_cast<std::uint16_t>(~bit);
+  r.state.known.fill(false);
+  end_contour(r);
+}
+
+void displace_or_end(const Block& block, Reading& r, std::uint16_t bit) {
+  block.statement_is_bare ? end_displacement(block, r, bit) : displace_by_statement(block, r, bit);
+}
+
+/// A modal call that is not followed calls a macro at every move.
+void call_modally(const Block& block, Reading& r) {
+  if (block.statement_is_bare) {
+    end_displacement(block, r, modal_macro);
+    r.called.reset();
+    return;
+  }
+  if (empty(block.block_delete) && !r.in_body())
+    end_displacement(block, r, modal_macro);
+  else if (r.called)
+    r.state.displaced |= modal_macro;
+  if (!begin_modal_cycle(block, r)) displace_by_statement(block, r, modal_macro);
 }
 
 void call_subprogram(const Block& block, Reading& r) {
@@ -77,26 +112,23 @@ void end_statement(const Block& block, Reading& r) {
       if (read_called_cycle(block, r)) return;
       return run_cycle(block, r);
     case Statement::modal_call:
-      displace_by_statement(block, r, modal_macro, false);
-      if (begin_modal_cycle(block, r) || block.statement_is_bare) return;
-      return displace_by_statement(block, r, modal_macro, true);
+      return call_modally(block, r);
     case Statement::shift:
     case Statement::added_shift:
     case Statement::turn:
     case Statement::added_turn:
-      if (!apply_frame_statement(block, r)) displace_by_statement(block, r, framed, !block.statement_is_bare);
-      return;
     case Statement::frame:
-      return displace_by_statement(block, r, framed, !block.statement_is_bare);
+      if (!apply_frame_statement(block, r)) displace_or_end(block, r, framed);
+      return;
     case Statement::added_frame:
-      return displace_by_statement(block, r, framed, true);
+      return displace_by_statement(block, r, framed);
     case Statement::tilt:
       run_cycle(block, r);
-      return displace_by_statement(block, r, tilted, !block.statement_is_bare);
+      return displace_or_end(block, r, tilted);
     case Statement::transformed:
-      return displace_by_statement(block, r, tool_point, true);
+      return displace_by_statement(block, r, tool_point);
     case Statement::transform_off:
-      return displace_by_statement(block, r, tool_point, false);
+      return end_displacement(block, r, tool_point);
     case Statement::smoothed:
       return add_remark(r.program, block.line,
                         "the control smooths the path; corrections smaller than its tolerance can vanish");
@@ -105,7 +137,7 @@ void end_statement(const Block& block, Reading& r) {
       r.state.known.fill(false);
       return note_uncorrected(block, r, "a variable of the control is set");
     case Statement::end:
-      r.ended = true;
+      if (empty(block.block_delete) && (r.body.jumps || r.body.open.empty())) r.ended = true;
       return;
     default:
       return;

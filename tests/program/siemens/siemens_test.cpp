@@ -310,6 +310,46 @@ std::string why_last(const std::string& lines) {
 
 }  // namespace
 
+TEST_CASE("siemens: a block that may not run ends no frame, transformation or modal call") {
+  const std::string frame = "a frame shifts or turns coordinates", move = "G0 X5 Y5 Z5\n";
+  const auto in_condition = [](const std::string& line) { return "IF R1==1\n" + line + "\nENDIF\n"; };
+  for (const std::string end : {"TRANS", "ROT", "SCALE", "MIRROR"}) {
+    CAPTURE(end);
+    CHECK(why_last("TRANS Y500\n/" + end + "\n" + move) == frame);
+    CHECK(why_last("TRANS Y500\n" + in_condition(end) + move) == frame);
+    CHECK(why_last("SCALE X3\n/" + end + "\n" + move) == frame);
+    // Nothing has begun that the block may end.
+    CHECK(why_last("/" + end + "\n" + in_condition(end) + move).empty());
+    CHECK(why_last("TRANS Y500\n/" + end + "\n" + end + "\n" + move).empty());
+  }
+  CHECK(why_last("TRAORI\n/TRAFOOF\n" + move) == "tool centre point control is active");
+  CHECK(why_last("TRAORI\n" + in_condition("TRAFOOF") + move) == "tool centre point control is active");
+  CHECK(why_last("CYCLE800(1,\"T\",0,57,0,0,0,0,30)\n/CYCLE800()\n" + move) == "coordinates are tilted");
+  const std::string macro = "every move calls a macro; its heights are not corrected", hole = "X5 Y5\n";
+  CHECK(why_last("MCALL CYCLE81(50,0,2,-20)\n/MCALL\n" + hole) == macro);
+  CHECK(why_last("MCALL CYCLE81(50,0,2,-20)\n" + in_condition("MCALL") + hole) == macro);
+  CHECK(why_last("MCALL MY_HOLE(1)\n" + in_condition("MCALL") + hole) == macro);
+  CHECK(why_last("MCALL CYCLE81(50,0,2,-20)\n" + in_condition("MCALL") + "MCALL\n" + move).empty());
+}
+
+TEST_CASE("siemens: a condition that begins and ends a frame or a modal call leaves it as it was") {
+  const std::string move = "G0 X5 Y5 Z5\n";
+  CHECK(why_last("LOOP\nTRANS X5\nG1 X1\nTRANS\nENDLOOP\n" + move).empty());
+  CHECK(why_last("LOOP\nMCALL CYCLE81(50,0,2,-20)\nX1\nMCALL\nENDLOOP\n" + move).empty());
+  CHECK_FALSE(why_last("IF R1==1\nTRANS X5\nELSE\nTRANS\nENDIF\n" + move).empty());
+  CHECK_FALSE(why_last("TRANS Y500\nLOOP\nTRANS X5\nG1 X1\nTRANS\nENDLOOP\n" + move).empty());
+}
+
+TEST_CASE("siemens: TRANS, ROT, SCALE and MIRROR alone end all frames") {
+  for (const std::string end : {"TRANS", "ROT", "SCALE", "MIRROR"}) {
+    CAPTURE(end);
+    for (const std::string begin : {"TRANS Y500\n", "TRANS Y500\nSCALE X2\n", "TRANS Y500\nL100\nG90 G0\n"}) {
+      const Program program = siemens(std::string(siemens_start) + "G54\n" + begin + end + "\nG0 X5 Y5 Z5\n");
+      CHECK(program.frames.at(program.moves.back().frame).origin_mm == Vector3(0, 0, 0));
+    }
+  }
+}
+
 TEST_CASE("siemens: jumps and repeated parts in lower case make the program a body") {
   const std::string tail = "TRANS Y500\naa: G0 X5 Y5 Z5\n";
   for (const std::string jump : {"gotof aa\n", "GotoF aa\n", "if R1==1 gotof aa\n", "case R2 of 1 gotof aa\n",
@@ -320,4 +360,12 @@ TEST_CASE("siemens: jumps and repeated parts in lower case make the program a bo
   CHECK(why_last("aa: G0 X5 Y5 Z5\nbb: G0 Z50\nrepeat aa bb P=2\n").starts_with("the program jumps"));
   CHECK(why_last("MSG(\"gotof aa\")\n; gotof aa\nG0 X5 Y5 Z5\n").empty());
   CHECK(why_last("repeat\nX1\nuntil R1==1\nG0 X5 Y5 Z5\n").empty());
+}
+
+TEST_CASE("siemens: the program goes on behind a RET that may not run") {
+  for (const std::string end : {"/RET\n", "IF R1==1\nRET\nENDIF\n", "/M17\n", "IF R1==1\nM17\nENDIF\n"}) {
+    CAPTURE(end);
+    const Program program = siemens(std::string(siemens_start) + end + "G0 X5 Y5 Z5\nRET\nG0 X9\n");
+    CHECK(program.moves.back().end_mm == Vector3(5, 5, 5));
+  }
 }
