@@ -141,6 +141,10 @@ void add_g(const Block& block, const BlockText& in, const Word& word, Effects& e
       effects.carries = name;
       effects.has_data = code->group == CodeGroup::none;
       return;
+    case Action::limits:
+      effects.carries = name;
+      effects.has_data = true;
+      return;
     case Action::own_way:
       effects.carries = name;
       effects.cuts_by_itself = true;

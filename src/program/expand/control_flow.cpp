@@ -115,7 +115,7 @@ class Joining {
 void add_flow(std::string_view text, const Dialect& dialect, const Block& block, bool jumps,
               ControlFlow& flow) {
   const std::size_t before = flow.lines.size();
-  if (dialect.sinumerik_words) return add_siemens_flow(text, block, flow);
+  if (dialect.sinumerik_words) return add_siemens_flow(text, block, jumps, flow);
   if (dialect.o_words)
     add_o_word(text, block, flow);
   else

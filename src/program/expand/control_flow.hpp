@@ -81,7 +81,7 @@ bool has_flow(const ControlFlow& flow);
 bool has_jumps(const ControlFlow& flow);
 
 /// Readers of the languages, used by `add_flow`.
-void add_siemens_flow(std::string_view text, const Block& block, ControlFlow& flow);
+void add_siemens_flow(std::string_view text, const Block& block, bool jumps, ControlFlow& flow);
 void add_o_word(std::string_view text, const Block& block, ControlFlow& flow);
 void add_macro_word(std::string_view text, const Block& block, bool jumps, ControlFlow& flow);
 

@@ -4,6 +4,7 @@
 
 #include "program/expand/expand.hpp"
 #include "program/expand/structures.hpp"
+#include "program/siemens/signs.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -34,9 +35,9 @@ MainFlow read_main_flow(const ProgramText& program) {
   const auto& [text, file, dialect, numbered_programs] = program;
   MainFlow main;
   if (!may_execute(dialect)) return main;
-  const bool jumps = text.find("GOTO") != std::string_view::npos ||
-                     text.find("goto") != std::string_view::npos ||
-                     text.find("Goto") != std::string_view::npos;
+  const bool jumps =
+      (dialect.sinumerik_words && siemens_jumps(text)) || text.find("GOTO") != std::string_view::npos ||
+      text.find("goto") != std::string_view::npos || text.find("Goto") != std::string_view::npos;
   Block block;
   Structures structures;
   bool opened = false, has_words = false, ended = false;

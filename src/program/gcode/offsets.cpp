@@ -211,6 +211,13 @@ void apply_displacements(const Block& block, Reading& r) {
   if (r.sorted.has(MAction::kinematics)) add_displacement(block, r, kinematics);
 }
 
+void note_offset_set(Reading& r, std::string_view name) {
+  r.state.offsets_set = name.empty() ? std::uint16_t{0xffff}
+                                     : static_cast<std::uint16_t>(r.state.offsets_set | offset_bit(name));
+  displace_by_data(r);
+  if ((r.state.displaced & data) != 0) r.state.known.fill(false), end_contour(r);
+}
+
 void apply_set_data(const Block& block, Reading& r) {
   if (r.sorted.has(Action::end_data)) r.state.entering_data = false;
   if (!r.sorted.has(Action::set_data)) return;
@@ -259,6 +266,7 @@ bool takes_axis_words(const Reading& r) {
     switch (g.code->action) {
       case Action::set_data:
       case Action::shift:
+      case Action::limits:
         return true;
       case Action::displace:
         return g.code->bit != tool_point && g.code->bit != polar;

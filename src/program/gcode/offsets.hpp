@@ -18,6 +18,10 @@ void apply_displacements(const Block& block, Reading& reading);
 /// following moves.
 void watch_other_axes(const Block& block, Reading& reading);
 
+/// A statement has set the work offset in a way that is not followed. Empty: any of them, or coordinates that
+/// no work offset resets.
+void note_offset_set(Reading& reading, std::string_view name);
+
 /// G10.
 void apply_set_data(const Block& block, Reading& reading);
 

@@ -86,14 +86,17 @@ void read_siemens_keyword(std::string_view rest, ControlLine& line) {
 
 }  // namespace
 
-void add_siemens_flow(std::string_view text, const Block& block, ControlFlow& flow) {
+void add_siemens_flow(std::string_view text, const Block& block, bool jumps, ControlFlow& flow) {
   ControlLine line = flow_line_of(block);
   std::string_view rest = part(text, block.span);
   rest = trimmed_text(rest.substr(0, comment_at(rest)));
   const bool skipped = rest.starts_with('/');
   if (skipped) rest = trimmed_text(rest.substr(std::min(rest.find_first_not_of("/0123456789"), rest.size())));
-  if (rest.size() > 1 && upper(rest[0]) == 'N' && is_digit(rest[1]))
-    rest = trimmed_text(rest.substr(std::min(rest.find_first_not_of("0123456789", 1), rest.size())));
+  if (rest.size() > 1 && upper(rest[0]) == 'N' && is_digit(rest[1])) {
+    const std::size_t end = std::min(rest.find_first_not_of("0123456789", 1), rest.size());
+    if (jumps) flow.labels[upper_case(rest.substr(0, end))].push_back(line.begin);
+    rest = trimmed_text(rest.substr(end));
+  }
   std::string_view ahead = rest;
   const std::string name = take_name(ahead);
   if (!name.empty() && !is_digit(name[0]) && ahead.starts_with(':') && !ahead.starts_with(":=")) {

@@ -140,6 +140,21 @@ void skip_numbered_assignment(Scanner& s, std::string_view name) {
   take_assigned(s, {begin, begin + name.size()});
 }
 
+/// "R[5]=1": an R parameter by its index. False for other text.
+bool lex_indexed_parameter(Scanner& s, std::string_view name) {
+  if (!is_word(name, "R") || s.text.substr(s.at + 1, 1) != "[") return false;
+  Scanner ahead = s;
+  ++ahead.at;
+  skip_siemens_index(ahead);
+  const Span variable{s.at, ahead.at};
+  ahead.skip_blanks();
+  if (ahead.peek() != '=') return false;
+  s.at = ahead.at;
+  s.block.assigns = true;
+  take_assigned(s, variable);
+  return true;
+}
+
 /// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. Other effects of the block
 /// are unknown.
 void skip_named_assignment(Scanner& s, std::string_view name) {
@@ -217,7 +232,7 @@ void lex_name(Scanner& s, std::string_view name) {
   if (const auto statement = statement_of_name(name)) return state(s, *statement);
   if (is_harmless_name(name)) return skip_harmless(s, name);
   if (is_cycle_name(name)) return state(s, Statement::cycle);
-  if (name.starts_with('$')) s.block.statement = Statement::data;
+  if (name.starts_with('$') && !is_harmless_variable(name)) s.block.statement = Statement::data;
   if (name.starts_with('$') || equals_follows(s, name.size()) || s.text.substr(s.at + name.size(), 1) == "[")
     return is_position_name(name) ? state(s, Statement::call) : skip_named_assignment(s, name);
   state(s, Statement::call);
@@ -236,7 +251,7 @@ void lex_siemens_word(Scanner& s) {
   const std::string_view name = siemens_name_at(s);
   const bool single =
       is_letter(name[0]) && (name.size() == 1 || is_run_of_words(name) || has_digit_behind_letter(name));
-  if (lex_label(s, name)) return;
+  if (lex_label(s, name) || lex_indexed_parameter(s, name)) return;
   if (!single || is_modal_of_several_letters(name)) return lex_name(s, name);
   const char letter = upper(name[0]);
   if (has_digit_behind_letter(name) && equals_follows(s, name.size()))

@@ -48,18 +48,38 @@ constexpr std::array siemens_names{
 };
 
 constexpr std::array harmless_names{
-    "MSG",       "STOPRE",   "FFWON",     "FFWOF",       "SOFT",      "BRISK",   "DRIVE",    "CUT2D",
-    "CUT2DF",    "COMPOF",   "NORM",      "KONT",        "KONTC",     "KONTT",   "FGROUP",   "FGREF",
-    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",        "SPCON",     "SPCOF",   "SETMS",    "DISPLOF",
-    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",       "UPATH",     "SPATH",   "CFC",      "CFTCP",
-    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF",     "DYNNORM",   "DYNPOS",  "DYNROUGH", "DYNSEMIFIN",
-    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",      "ORIWKS",    "ORIMKS",  "ORIAXES",  "ORIVECT",
-    "CTOL",      "OTOL",     "ATOL",      "OVR",         "OVRA",      "OVRRAP",  "FL",       "FA",
-    "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",     "ADIS",     "ADISPOS",
-    "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",  "RTLIOF",   "DEF",
-    "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",    "GOTOF",    "GOTOB",
-    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC", "FNORM",
+    "MSG",       "STOPRE",   "FFWON",     "FFWOF",       "SOFT",      "BRISK",   "DRIVE",      "CUT2D",
+    "CUT2DF",    "COMPOF",   "NORM",      "KONT",        "KONTC",     "KONTT",   "FGROUP",     "FGREF",
+    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",        "SPCON",     "SPCOF",   "SETMS",      "DISPLOF",
+    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",       "UPATH",     "SPATH",   "CFC",        "CFTCP",
+    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF",     "DYNNORM",   "DYNPOS",  "DYNROUGH",   "DYNSEMIFIN",
+    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",      "ORIWKS",    "ORIMKS",  "ORIAXES",    "ORIVECT",
+    "CTOL",      "OTOL",     "ATOL",      "OVR",         "OVRA",      "OVRRAP",  "FL",         "FA",
+    "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",     "ADIS",       "ADISPOS",
+    "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",  "RTLIOF",     "DEF",
+    "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",    "GOTOF",      "GOTOB",
+    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC", "FNORM",      "CPRECON",
+    "CPRECOF",   "WAITM",    "WAITMC",    "WAITE",       "WAITS",     "SETM",    "CLEARM",     "SETAL",
+    "STARTFIFO", "STOPFIFO", "SPOSA",     "SOFTA",       "BRISKA",    "DRIVEA",  "DELAYFSTON", "DELAYFSTOF",
 };
+
+constexpr std::array<std::string_view, 17> harmless_variables{"$AC_TIMER",
+                                                              "$AC_MARKER",
+                                                              "$AC_PARAM",
+                                                              "$AC_OPERATING_TIME",
+                                                              "$AC_CYCLE_TIME",
+                                                              "$AC_CUTTING_TIME",
+                                                              "$AC_REQUIRED_PARTS",
+                                                              "$AC_TOTAL_PARTS",
+                                                              "$AC_ACTUAL_PARTS",
+                                                              "$AC_SPECIAL_PARTS",
+                                                              "$A_OUT",
+                                                              "$A_OUTA",
+                                                              "$A_DBB",
+                                                              "$A_DBW",
+                                                              "$A_DBD",
+                                                              "$A_DBR",
+                                                              "$A_DLB"};
 
 constexpr std::array<std::string_view, 13> structures{"IF",    "ELSE",    "ENDIF", "WHILE",   "ENDWHILE",
                                                       "FOR",   "ENDFOR",  "LOOP",  "ENDLOOP", "REPEAT",
@@ -82,6 +102,10 @@ std::optional<Statement> statement_of_name(std::string_view name) {
 
 bool is_harmless_name(std::string_view name) {
   return is_one_of(name, harmless_names);
+}
+
+bool is_harmless_variable(std::string_view name) {
+  return is_one_of(name, harmless_variables);
 }
 
 bool is_siemens_structure(std::string_view name) {

@@ -14,6 +14,9 @@ std::optional<Statement> statement_of_name(std::string_view name);
 /// Whether the name neither moves an axis nor affects moves: MSG, SPOS, DYNNORM.
 bool is_harmless_name(std::string_view name);
 
+/// $AC_TIMER, $A_OUT: a variable of the control without an effect on coordinates.
+bool is_harmless_variable(std::string_view name);
+
 /// IF, WHILE, REPEAT and the other words of conditions and loops.
 bool is_siemens_structure(std::string_view name);
 

@@ -1,13 +1,21 @@
 #include "program/siemens/statements.hpp"
 
-#include <algorithm>
+#include <fmt/format.h>
 
+#include <algorithm>
+#include <cmath>
+
+#include "counterflex/files/text.hpp"
+#include "program/expand/control_flow.hpp"
 #include "program/gcode/frames.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/other_moves.hpp"
 #include "program/gcode/moves/read_move.hpp"
+#include "program/gcode/offsets.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/siemens/cycles.hpp"
+#include "program/siemens/names.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -60,6 +68,46 @@ void call_modally(const Block& block, Reading& r) {
   else if (r.called)
     r.state.displaced |= modal_macro;
   if (!begin_modal_cycle(block, r)) displace_by_statement(block, r, modal_macro);
+}
+
+/// "$P_UIFR[2,X,TR]": the work offset with this index; empty if the index is an expression.
+std::string offset_of_index(std::string_view variable) {
+  constexpr int settable = 4, highest = 99;
+  const std::size_t open = std::min(variable.find('['), variable.size());
+  const std::string_view list = variable.substr(std::min(open + 1, variable.size()));
+  const auto index = read_number(trimmed_text(list.substr(0, list.find_first_of(",]"))));
+  if (!index || *index < 0 || *index > highest || *index != std::floor(*index)) return {};
+  const int number = static_cast<int>(*index);
+  return number > 0 && number <= settable ? fmt::format("G{}", 53 + number)
+                                          : fmt::format("G{}", 500 + number);
+}
+
+/// Whether the next work offset ends the effect of the variable: the active settable frame, data of tools.
+bool ends_with_work_offset(std::string_view name) {
+  return is_word(name, "$P_IFRAME") || is_word(name.substr(0, 4), "$TC_");
+}
+
+/// Coordinates may change until a statement sets them: a work offset, TRANS; for other variables to the end.
+void set_control_variable(const Block& block, Reading& r, std::string_view variable) {
+  const std::string_view name = variable.substr(0, variable.find_first_of(" \t["));
+  if (is_word(name, "$P_PFRAME")) return displace_by_statement(block, r, framed);
+  r.state.unknown_modes |= unknown_offset;
+  r.state.known.fill(false);
+  if (is_word(name, "$P_UIFR"))
+    note_offset_set(r, offset_of_index(variable));
+  else if (!ends_with_work_offset(name))
+    note_offset_set(r, {});
+}
+
+void set_control_variables(const Block& block, Reading& r) {
+  const std::string_view text = r.program.text;
+  if (block.assignments.empty()) set_control_variable(block, r, {});
+  for (const Assignment& assignment : block.assignments)
+    if (const std::string_view variable = part(text, assignment.variable);
+        variable.starts_with('$') &&
+        !is_harmless_variable(variable.substr(0, variable.find_first_of(" \t["))))
+      set_control_variable(block, r, variable);
+  note_uncorrected(block, r, "a variable of the control is set");
 }
 
 void call_subprogram(const Block& block, Reading& r) {
@@ -133,9 +181,7 @@ void end_statement(const Block& block, Reading& r) {
       return add_remark(r.program, block.line,
                         "the control smooths the path; corrections smaller than its tolerance can vanish");
     case Statement::data:
-      r.state.unknown_modes |= unknown_offset;
-      r.state.known.fill(false);
-      return note_uncorrected(block, r, "a variable of the control is set");
+      return set_control_variables(block, r);
     case Statement::end:
       if (empty(block.block_delete) && (r.body.jumps || r.body.open.empty())) r.ended = true;
       return;

@@ -369,3 +369,38 @@ TEST_CASE("siemens: the program goes on behind a RET that may not run") {
     CHECK(program.moves.back().end_mm == Vector3(5, 5, 5));
   }
 }
+
+TEST_CASE(
+    "siemens: coordinates that a variable of the control sets stay unknown until a statement sets them") {
+  const std::string set = "a variable of the control has set the coordinates", move = "G0 X5 Y5 Z5\n";
+  CHECK(why_last("$P_UIFR[1,Y,TR]=500\nG54\n" + move) == set);
+  CHECK(why_last("/$P_UIFR[ 1 ]=CTRANS(Y,500)\nG54\n" + move) == set);
+  CHECK(why_last("$P_UIFR[R1,Y,TR]=500\nG55\n" + move) == set);
+  CHECK(why_last("$P_UIFR[1,Y,TR]=500\nG55\n" + move).empty());
+  CHECK(why_last("$P_UIFR[5,Y,TR]=500\nG505\n" + move) == set);
+  CHECK(why_last("$P_UIFR[5,Y,TR]=500\nG54\n" + move).empty());
+  const std::string frame = "a frame shifts or turns coordinates";
+  CHECK(why_last("$P_PFRAME=CTRANS(Y,500)\nG54\n" + move) == frame);
+  CHECK(why_last("$P_PFRAME=CTRANS(Y,500)\n/TRANS\n" + move) == frame);
+  CHECK(why_last("$P_PFRAME[Y,TR]=500\nTRANS\n" + move).empty());
+  for (const std::string variable :
+       {"$P_BFRAME", "$P_CHBFR[0]", "$P_NCBFR[0,X,TR]", "$P_TOOLFRAME", "$AA_OFF[Z]"}) {
+    CAPTURE(variable);
+    CHECK(why_last(variable + "=5\nTRANS\nG54\n" + move) == set);
+  }
+  CHECK(why_last("$P_IFRAME=CTRANS(Y,500)\n" + move).starts_with("its work offset is unknown"));
+  CHECK(why_last("$P_IFRAME=CTRANS(Y,500)\nG54\n" + move).empty());
+}
+
+TEST_CASE("siemens: statements without an effect on coordinates are read") {
+  for (const std::string line : {"$AC_TIMER[1]=0", "$A_OUT[3]=1", "R[1]=150", "r[R2]=R3+1 R5=2", "G26 S3000",
+                                 "G25 X0 Y0 Z0", "CPRECON", "WAITM(1,1,2)", "SETAL(65000)", "STARTFIFO"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\n");
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].end_mm == Vector3(5, 0, 50));
+    CHECK(program.moves[1].spindle_rpm == 2500);
+    CHECK(program.left_alone.empty());
+  }
+  CHECK(diagnostic_of([] { siemens("G71\nR[1]\n"); }).starts_with("p.mpf:2:1: error"));
+}

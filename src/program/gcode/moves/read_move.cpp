@@ -68,7 +68,8 @@ void allow_changes(const Reading& r, Move& move) {
                   !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }
 
-std::string_view displacement_text(std::uint16_t bits) {
+std::string_view displacement_text(const Reading& r) {
+  const std::uint16_t bits = r.state.displaced;
   if ((bits & rotary) != 0)
     return "a word of A, B, C, U, V or W is not zero: further axes are not supported; write corners as ,C "
            "and ,R";
@@ -82,7 +83,9 @@ std::string_view displacement_text(std::uint16_t bits) {
   if ((bits & framed) != 0) return "a frame shifts or turns coordinates";
   if ((bits & unknown) != 0) return "an unknown code may be active";
   if ((bits & tilted) != 0) return "coordinates are tilted";
-  if ((bits & data) != 0) return "G10 has set the work offset";
+  if ((bits & data) != 0)
+    return r.dialect.sinumerik_words ? "a variable of the control has set the coordinates"
+                                     : "G10 has set the work offset";
   return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
 }
 
@@ -238,7 +241,7 @@ std::string_view why_not_followed(const Reading& r) {
     return hint && !r.body.subprogram ? "it is in a condition or a loop (--expand-subprograms executes those "
                                         "whose conditions are known)"
                                       : "it is in a condition, a loop or a subprogram";
-  if (r.state.displaced != 0) return displacement_text(r.state.displaced);
+  if (r.state.displaced != 0) return displacement_text(r);
   std::uint16_t unknown_modes = r.state.unknown_modes;
   // Only arcs and cycles depend on planes and centres, only cycles on levels.
   const bool curved = r.state.motion >= MotionMode::clockwise || (unknown_modes & unknown_motion) != 0;

@@ -51,6 +51,7 @@ enum class Action : std::uint8_t {
   set_data,          ///< G10
   end_data,          ///< G11
   state,             ///< a state of the control without effect on moves; may have axis words
+  limits,            ///< G25, G26 of a Sinumerik: of the working area, of the spindle's speed S
   surface_speed,     ///< G96
   not_read           ///< known, but not supported
 };

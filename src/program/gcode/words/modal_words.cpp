@@ -141,8 +141,8 @@ void apply_feed_and_tool(Reading& r) {
   apply_feed_mode(r);
   apply_f(r, unit_before);
   // On some controls the S of a dwell is a number of turns.
-  if (const Word* s = r.sorted.word('S'); s != nullptr && !r.sorted.has(Action::dwell))
-    r.state.spindle_rpm = s->value;
+  const bool gives_speed = !r.sorted.has(Action::dwell) && !r.sorted.has(Action::limits);
+  if (const Word* s = r.sorted.word('S'); s != nullptr && gives_speed) r.state.spindle_rpm = s->value;
   if (r.sorted.has(Action::surface_speed)) r.state.spindle_rpm = 0;
   apply_tool(r);
 }
