@@ -11,8 +11,20 @@
 
 namespace counterflex {
 
-/// Values by name, as returned by `variable_name`.
-using Variables = std::map<std::string, double, std::less<>>;
+/// Type of a variable of a Sinumerik. INT rounds the values that it is assigned, BOOL makes them 0 or 1.
+enum class VariableType { real, integer, truth, other };
+
+/// By name, as returned by `variable_name`.
+struct Variables {
+  std::map<std::string, double, std::less<>> values{};
+  std::map<std::string, VariableType, std::less<>> types{};  ///< by DEF
+
+  void clear() { values.clear(); }
+};
+
+/// Sets the value, as a variable of its type takes it. It becomes unknown if that is not certain: halves
+/// below zero, or a fraction for a variable of a Sinumerik without DEF.
+void store(Variables& variables, const std::string& name, std::optional<double> value);
 
 /// The name of the variable `spelt`: "#5", "#<depth>", "r1". Empty if the name is an expression or belongs to
 /// the control; then any variable may be meant.

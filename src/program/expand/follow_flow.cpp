@@ -146,9 +146,13 @@ class Follower {
 
   FlowStep count_on(const ControlLine& end) {
     const ControlLine& line = partner(end);
-    const auto now = variables_.find(counter_of(line));
-    if (now == variables_.end()) refuse(end, "the variable of FOR is not known here");
-    return count(line, now->second + 1);
+    return count(line, value_of_counter(end, counter_of(line)) + 1);
+  }
+
+  double value_of_counter(const ControlLine& line, const std::string& name) const {
+    const auto now = variables_.values.find(name);
+    if (now == variables_.values.end()) refuse(line, "the variable of FOR is not known here");
+    return now->second;
   }
 
   std::string counter_of(const ControlLine& line) const {
@@ -161,8 +165,9 @@ class Follower {
     const CountedLoop loop = read_counted_loop(line);
     const auto last = value_of(loop.last).value;
     if (!last) refuse(line, fmt::format("the end of FOR {} is not known from the text", line.condition));
-    variables_[counter_of(line)] = value;
-    return {value > *last ? partner(line).behind : line.behind,
+    const std::string name = counter_of(line);
+    store(variables_, name, value);
+    return {value_of_counter(line, name) > *last ? partner(line).behind : line.behind,
             fmt::format("{}={}", loop.counter, shortest_text(value))};
   }
 

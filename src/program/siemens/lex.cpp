@@ -81,7 +81,8 @@ bool lex_structure(Scanner& s, std::string_view name) {
 void lex_declaration(Scanner& s) {
   s.at += siemens_name_at(s).size();
   s.skip_blanks();
-  s.at += siemens_name_at(s).size();
+  const Span type{s.at, s.at + siemens_name_at(s).size()};
+  s.at = type.end;
   for (s.skip_blanks(); s.at < s.end && s.peek() != ';'; s.skip_blanks()) {
     const std::size_t begin = s.at;
     s.at += siemens_name_at(s).size();
@@ -98,7 +99,7 @@ void lex_declaration(Scanner& s) {
       }
       value.end = s.at;
     }
-    s.block.assignments.push_back({variable, value});
+    s.block.assignments.push_back({variable, value, type});
     if (s.peek() != ',') return skip_siemens_rest(s);
     ++s.at;
   }

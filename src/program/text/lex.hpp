@@ -54,6 +54,7 @@ struct Word {
 /// "#5=#1+2", "R1=5", "_DEPTH=-3".
 struct Assignment {
   Span variable, value;
+  Span type{};  ///< of DEF: INT, REAL
 };
 
 /// One line. Its vectors are reused from line to line.

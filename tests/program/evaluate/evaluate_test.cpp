@@ -150,6 +150,23 @@ TEST_CASE("variables that the text does not determine are unknown") {
   CHECK_FALSE(last_is_known("#1=[1/3]\nG91 G1 X#1\n"));
 }
 
+TEST_CASE("siemens: INT and BOOL variables take values as the control stores them") {
+  CHECK(end_of("DEF INT CNT=7\nCNT=CNT/2\nR1=CNT*10\nG1 X=R1\n", "siemens").x() == 40);
+  CHECK(end_of("def int aa=7.6, BB=2.4\nG1 X=AA Y=BB\n", "siemens") == Vector3(8, 2, 5));
+  CHECK(end_of("DEF INT AA=-7.6\nG1 X=AA\n", "siemens").x() == -8);
+  CHECK(end_of("DEF BOOL FLAG=5\nG1 X=FLAG*50\n", "siemens").x() == 50);
+  CHECK(end_of("DEF BOOL FLAG=0\nFLAG=-0.5\nG1 X=FLAG*50\n", "siemens").x() == 50);
+  CHECK(end_of("DEF REAL AA=7.5\nAA=AA/2\nG1 X=AA\n", "siemens").x() == 3.75);
+  CHECK(end_of("R[1]=7.5\nG1 X=R1 Y=R[1]\n", "siemens") == Vector3(7.5, 7.5, 5));
+  for (const std::string unclear :
+       {"DEF INT AA=-2.5\nG1 X=AA\n", "DEF INT AA=0.1*25\nAA=AA+0.4999999\nG1 X=AA\n",
+        "DEF INT AA=3E9\nG1 X=AA\n", "DEF CHAR AA=65\nG1 X=AA\n", "_GUD=2.5\nG1 X=_GUD\n"}) {
+    CAPTURE(unclear);
+    const Program program = evaluated("G71 G90 G17 G54 F100\nG0 X0 Y0 Z5\n" + unclear, "siemens");
+    CHECK_FALSE(program.moves.back().known_end[0]);
+  }
+}
+
 TEST_CASE("an evaluated word becomes a number if it changes, and stays as it is if it does not") {
   const Program program = evaluated(start + "#1=5\nG1 X#1 Y[#1 * 2]\nG2 X[2*#1] Y#1 I0 J-5\n");
   CHECK(moved(program).find("#1=5\nG1 X6. Y[#1 * 2]\n") != std::string::npos);
