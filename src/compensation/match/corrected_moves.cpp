@@ -12,7 +12,7 @@
 namespace counterflex {
 namespace {
 
-// A Sinumerik's MCALL with a drilling cycle. It is written again before holes, which compare it.
+// A Sinumerik's MCALL with a drilling cycle. It is written again before holes.
 bool calls_modal_cycle(std::string_view line) {
   const auto skip = [&line](std::string_view characters) {
     line.remove_prefix(std::min(line.find_first_not_of(characters), line.size()));
@@ -141,6 +141,15 @@ void OtherLines::end_statement() {
   statement_.clear();
 }
 
+void OtherLines::end_calls(bool at_hole) {
+  for (WaitingLine& waiting : waiting_) {
+    if (waiting.calls && at_hole) continue;
+    lines.push_back(std::move(waiting.line));
+    ++count_;
+  }
+  waiting_.clear();
+}
+
 std::vector<std::size_t> OtherLines::add(const Program& window) {
   std::vector<std::size_t> counts(window.moves.size());
   const std::vector<std::size_t> order = in_text_order(window);
@@ -154,8 +163,11 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     std::string_view line = text.substr(begin, end - begin);
     const std::size_t line_begin = std::exchange(begin, end + 1);
     bool moves = false;
-    for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true)
+    for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true) {
+      const Move& move = window.moves[order[next_move]];
+      end_calls(move.called && !move.called->modal.empty());
       counts[order[next_move++]] = count_;
+    }
     if (moves) {
       end_statement();
       // A statement may continue in further lines.
@@ -166,7 +178,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       continue;
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    if (siemens && calls_modal_cycle(line)) continue;
+    const bool calls = siemens && calls_modal_cycle(line);
     if (is_line_of_guard(window, line_begin)) continue;
     const std::size_t first_count = next_count;
     std::string counted = without(window.counts, window.text, line, line_begin, next_count);
@@ -177,6 +189,10 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     counted = line_kept_words(window, line, std::move(counted));
     std::string statement = statement_of(window, counted, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
+    if (calls || !waiting_.empty()) {
+      waiting_.push_back({{line_of_file(window.expansion, lines_before_ + 1), std::move(statement)}, calls});
+      continue;
+    }
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
     const std::size_t first_number = next_number;
@@ -189,6 +205,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     if (ends) end_statement();
   }
   end_statement();
+  end_calls(false);
   return counts;
 }
 

@@ -20,10 +20,11 @@ struct OtherLine {
 
 bool are_equal(const OtherLine& a, const OtherLine& b);
 
-/// The lines without a move of a program that is read in windows, the header, guards and modal drilling
-/// cycles of a Sinumerik aside. Of statements that set the surface of Klartext's drilling cycles, and differ
-/// in that alone, the first one counts: the others are judged by their holes. An inserted block is beside the
-/// block that it belongs to: both have the same number of such lines before them.
+/// The lines without a move of a program that is read in windows, the header and guards aside, and an MCALL
+/// of a Sinumerik if the next move is one of its holes: the hole compares it. Of statements that set the
+/// surface of Klartext's drilling cycles, and differ in that alone, the first one counts: the others are
+/// judged by their holes. An inserted block is beside the block that it belongs to: both have the same number
+/// of such lines before them.
 class OtherLines {
  public:
   /// Takes in the next window; by move the number of lines without a move before it, from the program's
@@ -33,9 +34,16 @@ class OtherLines {
   std::deque<OtherLine> lines{};  ///< that were not compared yet
 
  private:
+  struct WaitingLine {
+    OtherLine line;
+    bool calls = false;  // MCALL with a drilling cycle
+  };
+
   void end_statement();
+  void end_calls(bool at_hole);
 
   std::vector<OtherLine> statement_{};       // that is being read
+  std::vector<WaitingLine> waiting_{};       // for the next move, from an MCALL on
   bool sets_surface_ = false;                // it
   std::vector<std::string> last_surface_{};  // the last one that has
   int lines_before_ = 0;                     // of the text, before the window

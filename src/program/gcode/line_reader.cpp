@@ -58,7 +58,8 @@ bool LineReader::read_any_line() {
 bool LineReader::may_end_before(const Move& last, bool anywhere) const {
   const ModalState& state = reading_.state;
   const bool across = last.words[0] || last.words[1] || last.arc || (anywhere && ends_along_z(program()));
-  const bool alone = last.group == 0 && !last.cycle && last.handling == Handling::own && !last.block_delete;
+  const bool alone =
+      last.group == 0 && !last.cycle && !last.called && last.handling == Handling::own && !last.block_delete;
   const bool clear = state.contour == Contour::none && state.unknown_modes == 0 && state.displaced == 0 &&
                      !reading_.in_body() && !state.entering_data;
   return last.line == block_.line && across && alone && clear && all_known(last.known_start);

@@ -104,9 +104,10 @@ std::string without_rewritten_words(const Program& program, const Move& move, bo
     for (; at < end; ++at)
       if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
   };
+  const bool arguments = move.called && move.called->modal.empty();  // CYCLE81(50,0,2,-20)
   for (const Span& number : rewritten_numbers(move)) {
     keep(number.begin);
-    const bool bracket = drop_letter(text, klartext);
+    const bool bracket = !arguments && drop_letter(text, klartext);
     at = number.end;
     if (bracket) at = program.text.find(')', at) + 1;
   }

@@ -113,6 +113,19 @@ TEST_CASE("siemens: the reason for a cycle that is not followed names the suppor
   }
 }
 
+TEST_CASE("siemens: the positions of an MCALL that is not followed are holes of unknown heights") {
+  for (const std::string call : {"MCALL CYCLE81(50,0,2,R1)\n", "MCALL L100\n", "/MCALL CYCLE81(50,0,2,-20)\n",
+                                 "MCALL CYCLE81(50,0,2,-20)\n/MCALL\n"}) {
+    CAPTURE(call);
+    const Program program = drilled(call + "X20 Y10\nX30\nMCALL\nG0 Z99\n");
+    REQUIRE(program.moves.size() == 4);
+    CHECK(program.moves[1].makes_hole);
+    CHECK(program.moves[2].makes_hole);
+    CHECK(program.moves[2].fixed == std::array{false, false, true});
+    CHECK_FALSE(program.moves[3].makes_hole);
+  }
+}
+
 TEST_CASE("siemens: the modal call of a line is found without its number and comment") {
   const auto found = modal_drilling_cycle("MCALL  CYCLE83(50, 0 ,2,-30,,-5) ; deep");
   REQUIRE(found);
