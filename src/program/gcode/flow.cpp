@@ -49,11 +49,9 @@ void forget_state(ModalState& state) {
 void open_body(Reading& r, std::string name) {
   if (r.body.open.empty()) {
     end_contour(r);
-    r.body.before = r.state;
-    r.body.unknown_modes = r.body.displaced = 0;
-    r.body.chooses_tool = false;
+    r.body.left.reset();
   }
-  r.body.open.push_back(std::move(name));
+  r.body.open.push_back({std::move(name), r.state});
   r.state.known.fill(false);
 }
 
@@ -67,27 +65,26 @@ void open_subprogram(Reading& r, std::string name) {
 }
 
 void close_body(Reading& r) {
+  const ModalState before = std::move(r.body.open.back().before);
   r.body.open.pop_back();
-  if (!r.body.open.empty()) return;
-  if (r.body.subprogram) {
-    r.state = r.body.before;
+  const bool outermost = r.body.open.empty();
+  if (outermost && r.body.subprogram) {
+    r.state = before;
     r.body.subprogram = false;
     return;
   }
-  mark_differences_unknown(r.dialect, r.body.before, r.state);
-  r.state.unknown_modes |= r.body.unknown_modes;
-  r.state.displaced |= r.body.displaced;
-  if (r.body.chooses_tool) r.state.tool_chosen.reset();
+  mark_differences_unknown(r.dialect, before, r.state);
+  if (outermost && r.body.left) mark_differences_unknown(r.dialect, *r.body.left, r.state);
   r.state.known.fill(false);
 }
 
 /// A path through the body leaves it here, or starts again.
 void note_differences(Reading& r) {
   if (r.body.open.empty()) return;
-  r.body.unknown_modes |= differences(r.body.before, r.state);
-  r.body.displaced |= r.state.displaced;
-  r.body.displaced |= different_shifts(r.dialect, r.body.before, r.state);
-  r.body.chooses_tool = r.body.chooses_tool || r.body.before.tool_chosen != r.state.tool_chosen;
+  if (r.body.left)
+    mark_differences_unknown(r.dialect, r.state, *r.body.left);
+  else
+    r.body.left = r.state;
 }
 
 void call(const Block& block, Reading& r) {
@@ -122,7 +119,7 @@ void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
     if (r.body.open.empty()) refuse_end(block, r, line);
     return close_body(r);
   }
-  if (line.is("WHILE") && !r.body.open.empty() && r.body.open.back() == opened_do) return close_body(r);
+  if (line.is("WHILE") && !r.body.open.empty() && r.body.open.back().name == opened_do) return close_body(r);
   if (opens(line)) return open_body(r, line.is("DO") ? opened_do : line.name);
   note_differences(r);
 }

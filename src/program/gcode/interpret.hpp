@@ -15,13 +15,15 @@
 
 namespace counterflex {
 
+struct OpenStructure {
+  std::string name;     ///< of O-words: name and keyword; else the keyword
+  ModalState before{};  ///< state before it
+};
+
 /// The conditions, loops and subprograms around a block. Blocks in them may run never or several times.
 struct Body {
-  std::vector<std::string> open;    ///< of O-words: name and keyword; else the keyword
-  ModalState before{};              ///< state before the outermost structure
-  std::uint16_t unknown_modes = 0;  ///< states that differ between the paths through the body
-  std::uint16_t displaced = 0;      ///< bits of Displacement that act on some of these paths alone
-  bool chooses_tool = false;        ///< so does T
+  std::vector<OpenStructure> open;
+  std::optional<ModalState> left{};  ///< state of the paths that leave the outermost structure before its end
   bool subprogram = false;  ///< the outermost structure is a subprogram, which does not run at its place
   bool jumps = false;       ///< GOTO makes the whole program a body
   /// Bits of Displacement that began behind the last line of flow: another block of the same run may end

@@ -404,3 +404,14 @@ TEST_CASE("siemens: statements without an effect on coordinates are read") {
   }
   CHECK(diagnostic_of([] { siemens("G71\nR[1]\n"); }).starts_with("p.mpf:2:1: error"));
 }
+
+TEST_CASE("siemens: a state that one path through a condition leaves is unknown behind it") {
+  const std::string move = "G0 X5 Y5 Z5\n", distance = "G90 or G91 is unknown";
+  CHECK(why_last("IF R1==1\nG91\nIF R2==1\nG90\nENDIF\nENDIF\n" + move).starts_with(distance));
+  CHECK(why_last("IF R1==1\nG91\nELSE\nG90\nENDIF\n" + move).starts_with(distance));
+  CHECK(why_last("IF R1==1\nG91\nG90\nELSE\nG90\nENDIF\n" + move).empty());
+  const Program program =
+      siemens(std::string(siemens_start) + "T1 M6\nIF R1==1\nT2 M6\nELSE\nT1 M6\nENDIF\nG0 X5 Y5 Z5\n");
+  CHECK(program.moves.back().tool == 0);
+  CHECK(why_last("IF R1==1\nG58 X5\nELSE\nX1\nENDIF\n" + move).starts_with("G52 shifts"));
+}
