@@ -104,9 +104,9 @@ void settle(DraftPiece& draft, double u) {
 }
 
 // Whether a piece from `next` on ends at a knot; `next` goes behind it.
-bool find_knot(const Knot& knot, double tolerance, std::vector<DraftPiece>& drafts, std::size_t& next) {
+bool find_knot(const Knot& knot, double rounding, std::vector<DraftPiece>& drafts, std::size_t& next) {
   std::size_t best = drafts.size();
-  double best_miss = tolerance;
+  double best_miss = rounding;
   for (std::size_t j = next; j + 1 < drafts.size(); ++j) {
     const double miss = (drafts[j].piece.commanded.end - knot.target).norm();
     if (miss >= best_miss) continue;
@@ -119,23 +119,24 @@ bool find_knot(const Knot& knot, double tolerance, std::vector<DraftPiece>& draf
   return true;
 }
 
-bool find_jump(const Knot& knot, double tolerance, std::vector<DraftPiece>& drafts, std::size_t& next) {
-  if ((drafts[next].piece.commanded.end - knot.target).norm() > tolerance) return false;
+bool find_jump(const Knot& knot, double rounding, std::vector<DraftPiece>& drafts, std::size_t& next) {
+  if ((drafts[next].piece.commanded.end - knot.target).norm() > rounding) return false;
   settle(drafts[next], knot.u);
   ++next;
   return true;
 }
 
-// Points that were inserted where the plan has a knot belong to its fraction. Where the force steps, one move
-// ends on this side of the step and the next one on the other.
-void find_knots(std::span<const Knot> knots, double tolerance, std::vector<DraftPiece>& drafts) {
+// Points that were inserted where the plan has a knot, to the rounding of its words, belong to its fraction.
+// Where the force steps, one move ends on this side of the step and the next one on the other. Other points
+// are projected: their fraction must not depend on the tolerance.
+void find_knots(std::span<const Knot> knots, double rounding, std::vector<DraftPiece>& drafts) {
   std::size_t next = 0;  // piece
   const Knot* last = nullptr;
   for (const Knot& knot : knots) {
     if (next + 1 >= drafts.size()) return;
     const bool behind = last != nullptr && last->u == knot.u;
     const bool found =
-        behind ? find_jump(knot, tolerance, drafts, next) : find_knot(knot, tolerance, drafts, next);
+        behind ? find_jump(knot, rounding, drafts, next) : find_knot(knot, rounding, drafts, next);
     last = found ? &knot : nullptr;
   }
 }
@@ -191,8 +192,8 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
                 std::vector<DraftPiece>& pieces) {
   std::vector<DraftPiece> drafts = drafts_of(job, matched);
   if (drafts.size() > 1) {
-    find_knots(inner_knots(job, plan, *matched.segment), job.options.tolerance, drafts);
     const std::size_t s = *matched.segment;
+    find_knots(inner_knots(job, plan, s), rounding_allowance(matched.original, job.options.write), drafts);
     project(job.path.segments[s].wanted, corner_knots(job, plan, s), rounding_of(job, matched.original),
             drafts);
   }

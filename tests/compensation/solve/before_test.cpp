@@ -100,3 +100,21 @@ TEST_CASE("verify finds a wrong circle along which the correction is constant") 
     CHECK(failure->line == 4);
   }
 }
+
+TEST_CASE("what verify finds does not depend on its tolerance") {
+  Order order{
+      .machine = load_machine(small_mill),
+      .text = "G21 G90 F500\nG0 X0 Y0 Z0\nG1 X250\nG1 Y250\nG1 X0 Y0\nM30\n",
+      .force = step_profile("0, 50, 0, 0\n60, 215, -10, -25\n340, 20, 100, -25\n600, 250, 100, 30\n", 2e-3)};
+  const Shop shop(order);
+  const Compensation written = compensated(shop);
+  REQUIRE(written.counts.inserted_blocks > 0);
+  const double expected = largest_miss_after(written.waypoints);
+  for (const double times : {2., 5., 10.}) {
+    CAPTURE(times);
+    order.tolerance = times * shop.job().options.tolerance;
+    const Shop other(order);
+    const Compensation found = judged(other, written.text);
+    CHECK(largest_miss_after(found.waypoints) < expected + 1e-6);
+  }
+}
