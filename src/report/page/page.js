@@ -107,12 +107,16 @@
     return true;
   }
 
+  /** Holes have no length to draw over. */
+  const hasPath = ({runs}) => runs.some(({report}) => report.summary.path_mm > 0);
+
   /** The section of the axes. Its plots, which it returns, are not printed. */
   function renderAxes(context, group) {
     const made = counterflex.axes.plots(context, group);
-    fill(body('axes'), made && made.content, el('div', {id: 'axis-tables'}));
+    const drawn = made && hasPath(context);
+    fill(body('axes'), drawn && made.content, el('div', {id: 'axis-tables'}));
     document.getElementById('axes').hidden = made === null;
-    return made ? made.plots : [];
+    return drawn ? made.plots : [];
   }
 
   function renderPlots(context) {
@@ -123,7 +127,7 @@
     for (const [id, make] of Object.entries(sections))
       if (!addPlots(context, id, make(context, group, points))) hide(id);
     const tables = el('div', {id: 'load-tables'});
-    const drawn = addPlots(context, 'loads', loads.plots(context, group));
+    const drawn = hasPath(context) && addPlots(context, 'loads', loads.plots(context, group));
     body('loads').append(tables);
     if (!drawn && !loads.exist(context)) hide('loads');
     for (const plot of context.plots.slice(0, 2)) plot.ensure();
