@@ -86,15 +86,16 @@ bool sets_offset(const Word* l) {
   return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
 }
 
-/// Anything may have set the offsets and the tool lengths.
-void lose_offsets(const Block& block, Reading& r, std::string_view why) {
-  r.state.offsets_set = 0xffff;
-  displace_by_data(r);
-  r.state.known.fill(false);
+void lose_tool_lengths(Reading& r) {
   r.state.tool_length.reset();
   r.state.tool_length_mm.reset();
   r.lengths_set = true;
-  end_contour(r);
+}
+
+/// The block may have set any offset and any tool length.
+void lose_offsets(const Block& block, Reading& r, std::string_view why) {
+  note_offset_set(r, {});
+  lose_tool_lengths(r);
   note_uncorrected(block, r, why);
 }
 
@@ -103,11 +104,9 @@ bool may_be_offset(std::string_view variable, const Reading& r) {
   if (variable.starts_with("#<")) return false;
   const auto number = value_of_expression(variable.substr(1), r.dialect, r.variables).value;
   if (!number) return true;
-  constexpr double last_of_user = 999, first_of_outputs = 1000, last_of_outputs = 1999,
-                   first_of_alarms = 3000, last_of_alarms = 3999, last_of_linuxcnc = 5160;
+  constexpr double last_of_linuxcnc = 5160, last_output = 1999, first_alarm = 3000, last_alarm = 3999;
   if (r.dialect.o_words) return *number > last_of_linuxcnc;
-  return *number > last_of_user && !(*number >= first_of_outputs && *number <= last_of_outputs) &&
-         !(*number >= first_of_alarms && *number <= last_of_alarms);
+  return *number > last_output && (*number < first_alarm || *number > last_alarm);
 }
 
 bool sets_tools(const Word* l) {
@@ -228,9 +227,7 @@ void apply_set_data(const Block& block, Reading& r) {
   if (sets_offset(l) && set_work_offset(block, r)) return;
   note_uncorrected(block, r, "G10 sets offsets or tools");
   if (sets_tools(l)) {
-    r.state.tool_length.reset();
-    r.state.tool_length_mm.reset();
-    r.lengths_set = true;
+    lose_tool_lengths(r);
     return;
   }
   if (!sets_offset(l)) return;

@@ -362,7 +362,7 @@ TEST_CASE("siemens: jumps and repeated parts in lower case make the program a bo
   CHECK(why_last("repeat\nX1\nuntil R1==1\nG0 X5 Y5 Z5\n").empty());
 }
 
-TEST_CASE("siemens: the program goes on behind a RET that may not run") {
+TEST_CASE("siemens: the program continues behind a RET that may not run") {
   for (const std::string end : {"/RET\n", "IF R1==1\nRET\nENDIF\n", "/M17\n", "IF R1==1\nM17\nENDIF\n"}) {
     CAPTURE(end);
     const Program program = siemens(std::string(siemens_start) + end + "G0 X5 Y5 Z5\nRET\nG0 X9\n");
