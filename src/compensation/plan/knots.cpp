@@ -59,22 +59,27 @@ std::vector<double> greedy(const IsStraight& is_straight, double u0, double end)
   return knots;
 }
 
-// Whether what a correction leaves is within the tolerance, or not more than without it.
+// Whether what a correction leaves is within the tolerance, or a share of the deviation without it. In
+// another direction the band may be smaller.
 template <int first>
-bool leaves_little(const Correction& left, const Correction& without, double tolerance) {
-  return left.segment<3>(first).norm() <= std::max(tolerance, without.segment<3>(first).norm());
+bool leaves_little(const Correction& left, const Correction& without, double tolerance, double accuracy) {
+  const Vector3 l = left.segment<3>(first), w = without.segment<3>(first);
+  if (l.norm() <= tolerance) return true;
+  const double share = std::clamp(l.dot(w) / w.squaredNorm(), 0.0, 1.0);
+  return (l - share * w).norm() <= accuracy;
 }
 
-// Knots of a correction that fades out: the straight lines between them leave at most `tolerance` of the
-// deviation, or not more than without a correction. Both hold for position and turn by themselves.
+// Knots of a correction that fades out: the straight lines between them leave at most `room` of the
+// deviation, or a share of it to `accuracy`. Both hold for position and turn by themselves.
 std::vector<double> fading_knots(const CorrectionCurve& full, const Fade& fade,
-                                 const std::vector<double>& corners, double tolerance) {
+                                 const std::vector<double>& corners, double room, double accuracy) {
   const auto is_straight = [&](double u0, double u1) {
     const Correction c0 = fade(u0, full.at(u0)), c1 = fade(u1, full.at(u1));
     return holds_between(u0, u1, corners, [&](double u) {
       const double w = (u - u0) / (u1 - u0);
       const Correction c = full.at(u), left = c - (1 - w) * c0 - w * c1, without = c - fade.programmed;
-      return leaves_little<0>(left, without, tolerance) && leaves_little<3>(left, without, tolerance);
+      return leaves_little<0>(left, without, room, accuracy) &&
+             leaves_little<3>(left, without, room, accuracy);
     });
   };
   return greedy(is_straight, full.begin(), full.end());
@@ -153,7 +158,8 @@ std::optional<Failure> add_knots(const Job& job, PlaceSolver& solver, std::size_
     if (auto failure = set_gain(job, solver, index, gain)) return failure;
     const std::optional<double> room = room_between_points(job, segment, gain);
     if (!room) return few_decimals_failure(job.program.moves[segment.move], job.options);
-    knots = fade.acts() ? fading_knots(stretch, fade, corners, *room) : knots_within(*room);
+    knots = fade.acts() ? fading_knots(stretch, fade, corners, *room, curve_share * job.options.tolerance)
+                        : knots_within(*room);
     // Where that is not possible the zones become smaller.
     const auto [first, last] = between_zones(job, segment);
     const auto is_straight = [&](double u0, double u1) { return stays_within(at, corners, u0, u1, *room); };
