@@ -41,6 +41,7 @@ struct Measures {
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
   double corrected_mm = 0;           ///< of it, pieces that are within the tolerance everywhere
+  double accepted_mm = 0;            ///< of it, pieces that are within it or insignificant everywhere
   std::size_t segments_changed = 0;  ///< moves whose target is not the original one
 };
 
@@ -112,8 +113,9 @@ class PathTally {
   Measures m_;
   WorstLines lines_;
   std::optional<std::pair<std::size_t, int>> last_changed_;  ///< move and line
-  bool piece_missed_ = false;  ///< somewhere the piece under way misses the tolerance
-  double piece_weight_ = 0;    ///< of the piece under way
+  bool piece_missed_ = false;   ///< somewhere the piece under way misses the tolerance
+  bool piece_refused_ = false;  ///< somewhere it does so significantly
+  double piece_weight_ = 0;     ///< of the piece under way
   /// Of the way since the last place of the original path: all means but those of `after` are over these
   /// places.
   double place_weight_ = 0;

@@ -170,6 +170,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Mov
   keep_worst(row.after_mm, row.at_after, w, w.after, operation);
   piece_weight_ += w.weight;
   piece_missed_ = piece_missed_ || !is_within;
+  piece_refused_ = piece_refused_ || !(is_within || w.insignificant);
   if (!w.between) close_piece(w, operation);
   place_weight_ += w.weight;
   if (w.place) add_place(w, operation, facts);
@@ -179,6 +180,7 @@ void PathTally::add_cutting(const Waypoint& w, std::int32_t operation, const Mov
 void PathTally::close_piece(const Waypoint& w, std::int32_t operation) {
   const double corrected_mm = std::exchange(piece_missed_, false) ? 0 : piece_weight_ / mm;
   m_.corrected_mm += corrected_mm;
+  if (!std::exchange(piece_refused_, false)) m_.accepted_mm += piece_weight_ / mm;
   if (OperationTally* tally = tally_of(operation)) tally->corrected_mm += corrected_mm;
   piece_weight_ = 0;
   if (w.place || !w.causes) return;

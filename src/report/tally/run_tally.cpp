@@ -94,7 +94,7 @@ void RunTally::add_reversals(const Job& window) {
 
 FeedMoves RunTally::feed_moves() const {
   FeedMoves moves = feed_.moves();
-  moves.within_mm += path_.measures().corrected_mm;
+  moves.within_mm += path_.measures().accepted_mm;
   return moves;
 }
 

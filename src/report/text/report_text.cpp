@@ -227,8 +227,9 @@ std::string program_text(const RunReport& report, const Ink& ink) {
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move")) +
            zones_text(report);
   const std::string others = blocks.others ? others_text(*blocks.others) : "";
-  text += fmt::format("  {} of {} corrected{}, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
-                      others.empty() ? "" : " individually", counted(blocks.inserted, "point"));
+  text += fmt::format("  {} of {} {}{}, {} added\n", blocks.corrected, counted(blocks.moves, "move"),
+                      done_word(report), others.empty() ? "" : " individually",
+                      counted(blocks.inserted, "point"));
   if (!others.empty()) text += wrapped("  ", others, 2);
   if (report.text_after)
     text += fmt::format("  {} -> {} blocks, {} -> {} bytes\n", report.text_before.blocks,
@@ -329,6 +330,10 @@ std::string verdict_line(const RunReport& report, const Ink& ink) {
 
 std::string band_text(const DeviationStatistics& s) {
   return s.bands ? " +- " + mm4(s.bands->at_max_mm) : "";
+}
+
+std::string_view done_word(const RunReport& report) {
+  return report.as_programmed ? "followed" : "corrected";
 }
 
 std::string others_text(const OtherMoves& moves) {

@@ -1,6 +1,7 @@
 #pragma once
 /// Parts that the summary and the details of a run share.
 #include <string>
+#include <string_view>
 
 #include "counterflex/report/report.hpp"
 #include "report/text/text_layout.hpp"
@@ -15,6 +16,9 @@ std::string verdict_line(const RunReport& report, const Ink& ink);
 
 /// The handling of moves that are not corrected individually; empty without such moves.
 std::string others_text(const OtherMoves& moves);
+
+/// What is done to moves: with --only-significant some are followed and not corrected.
+std::string_view done_word(const RunReport& report);
 
 /// " +- 0.0120": the band of the largest deviation; empty without bands.
 std::string band_text(const DeviationStatistics& s);

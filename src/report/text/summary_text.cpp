@@ -117,10 +117,9 @@ std::string moves_line(const RunReport& report) {
                                 counted(blocks.moves, "move"),
                                 report.reversals ? ", " + counted(report.reversals->count, "reversal") : ""));
   const std::string others = blocks.others ? others_text(*blocks.others) : "";
-  const char* const done = report.as_programmed ? "followed" : "corrected";  // some of them are not corrected
   std::string text =
       dialect_text(report) + fmt::format("{} of {} {}{}", blocks.corrected, counted(blocks.moves, "move"),
-                                         done, others.empty() ? "" : " individually, " + others);
+                                         done_word(report), others.empty() ? "" : " individually, " + others);
   text += fmt::format(", {} added", counted(blocks.inserted, "point"));
   if (report.reversals) text += ", " + counted(report.reversals->count, "reversal");
   if (report.correction && report.correction->mm > 0)

@@ -27,8 +27,10 @@
   function correctedCard(report) {
     const share = report.summary.corrected_percent;
     const {corrected, moves} = report.blocks;
-    const note = `of the cutting length, within tolerance; ${corrected} of ${words.counted(moves, 'move')}`;
-    return card('corrected', 'Corrected', percent(share), note, share < 100 ? 'warn' : '');
+    const left = report.only_significant;
+    const rest = left ? ', the rest below its band' : '';
+    const note = `of the cutting length, within tolerance${rest}; ${corrected} of ${words.counted(moves, 'move')} ${left ? 'followed' : ''}`;
+    return card('corrected', left ? 'Within tolerance' : 'Corrected', percent(share), note.trim(), share < 100 && !left ? 'warn' : '');
   }
 
   function airCard(report, place) {
