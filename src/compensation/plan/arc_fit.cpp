@@ -6,6 +6,7 @@
 #include <limits>
 #include <numbers>
 
+#include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -25,10 +26,13 @@ struct Sample {
 };
 
 // The fraction of a written end of a piece: rounding moves it along the curve. The ends of the stretch keep
-// theirs.
+// theirs, and so do corners, to rounding: as where the text is read back.
 double fraction_at(const ArcTask& task, double u, const Vector3& written) {
   if (u == task.begin || u == task.end) return u;
-  const double along_mm = (written - task.commanded(u)).dot(direction_at(task.source, u));
+  const Vector3 off_mm = written - task.commanded(u);
+  const double rounding_mm = roundings * rounding_allowance(task.move, task.options) / mm;
+  if (std::ranges::count(task.corners, u) > 0 && off_mm.norm() <= rounding_mm) return u;
+  const double along_mm = off_mm.dot(direction_at(task.source, u));
   return u + along_mm / length(task.source);
 }
 
