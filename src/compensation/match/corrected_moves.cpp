@@ -12,6 +12,8 @@
 namespace counterflex {
 namespace {
 
+constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
+
 // A Sinumerik's MCALL with a drilling cycle. It is written again before holes.
 bool calls_modal_cycle(std::string_view line) {
   const auto skip = [&line](std::string_view characters) {
@@ -161,7 +163,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     std::string_view line = text.substr(begin, end - begin);
-    const std::size_t line_begin = std::exchange(begin, end + 1);
+    std::size_t line_begin = std::exchange(begin, end + 1);
     bool moves = false;
     for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true) {
       const Move& move = window.moves[order[next_move]];
@@ -178,6 +180,11 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       continue;
     }
     if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+    // The header goes in behind the mark, before the rest of the line.
+    if (lines_before_ == 0 && line.starts_with(byte_order_mark)) {
+      line.remove_prefix(byte_order_mark.size());
+      line_begin += byte_order_mark.size();
+    }
     const bool calls = siemens && calls_modal_cycle(line);
     if (is_line_of_guard(window, line_begin)) continue;
     const std::size_t first_count = next_count;

@@ -64,6 +64,7 @@ class KindComparison {
     for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
     if (original_.arc && !failure_) compare_sweeps();
     const Move& last = matched_.last();
+    if (!failure_) compare_known(last);
     if (!matched_.segment && !failure_) compare_unjudged(last);
     if (!failure_) compare_shifts(last);
     if (original_.cycle && last.cycle && !failure_) compare_cycle(last);
@@ -216,6 +217,14 @@ class KindComparison {
                             sweep_ / deg, wanted / deg));
   }
 
+  // A place that the original states is stated.
+  void compare_known(const Move& found) {
+    for (std::size_t axis = 0; axis < 3 && !failure_; ++axis)
+      if (original_.known_end[axis] && !found.known_end[axis])
+        fail(found, fmt::format("the position in {} is not known here: no move before has a word for it",
+                                "XYZ"[axis]));
+  }
+
   // Moves that give no segment keep a correction: what stays where it is does so in both programs.
   void compare_unjudged(const Move& found) {
     const bool known = all_known(original_.known_start) && all_known(original_.known_end);
@@ -263,7 +272,8 @@ class KindComparison {
       return fail(found, "the R of the original's hole is missing");
     compare_shift(found, "the bottom of the hole", bottom);
     if (!failure_) compare_shift(found, "the retract plane R", retract);
-    const bool both = wanted.retract_word && wanted.bottom_word && cycle.bottom_word;
+    const bool added = cycle.retract_word && !wanted.retract_word,
+               both = added || (wanted.retract_word && wanted.bottom_word && cycle.bottom_word);
     if (!failure_ && both && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
       fail(found,
            fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",

@@ -109,7 +109,8 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
 
 /// The fraction of an inserted point is that of the place of the tip along the segment, found from the
 /// projected one by Newton's method. A jump of the correction, and what goes backwards, gives no piece: what
-/// follows begins where it ends, and is judged from there on.
+/// follows begins where it ends, and is judged from there on. Of several in a row those behind the first are
+/// judged, too, where they do not begin at a knot of the plan.
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

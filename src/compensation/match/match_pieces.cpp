@@ -1,6 +1,7 @@
 #include <algorithm>
 #include <cmath>
 #include <numbers>
+#include <utility>
 
 #include "compensation/match/match_moves.hpp"
 #include "compensation/solve/commands.hpp"
@@ -267,15 +268,21 @@ std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
     if (refine(job, solver, open, drafts)) break;
   std::vector<Piece> pieces;
   pieces.reserve(drafts.size());
-  std::optional<double> u0;  // where the piece after a jump begins
+  std::optional<double> u0;       // where the piece behind a jump begins
+  bool begins_as_planned = true;  // a jump may begin there
   for (DraftPiece& draft : drafts) {
     Piece& piece = draft.piece;
     if (u0) piece.u0 = *u0;
     u0.reset();
-    if (piece.segment != no_segment && !piece.end_only && is_jump(job, piece))
+    if (piece.segment != no_segment && !piece.end_only && is_jump(job, piece)) {
       u0 = std::max(piece.u0, piece.u1);
-    else
-      pieces.push_back(std::move(piece));
+      const bool is_left_out = std::exchange(begins_as_planned, draft.settled);
+      if (is_left_out) continue;
+      piece.u0 = piece.u1 = *u0;
+    } else {
+      begins_as_planned = true;
+    }
+    pieces.push_back(std::move(piece));
   }
   return pieces;
 }

@@ -13,9 +13,9 @@ namespace {
 
 const std::string spindle_stop = "G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nX10\nM5\nM30\n";
 
-/// The line and words with which `changed` is refused as the corrected form of `spindle_stop`.
-std::string refusal(const std::string& changed) {
-  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = spindle_stop});
+/// The line and words with which `changed` is refused as the corrected form of `original`.
+std::string refusal(const std::string& changed, const std::string& original = spindle_stop) {
+  const Shop shop({.machine = load_machine(orthoglide_perfect), .text = original});
   const auto failure = verify(shop.job(), read_program(changed, "changed.ngc", {}), false).failure;
   if (!failure) return "";
   CHECK(failure->kind == ErrorKind::not_compensated);
@@ -38,6 +38,42 @@ TEST_CASE("moves that leave the path and come back are refused") {
   CHECK_FALSE(refusal(replaced("X10\n", "X10\nX10 Y50\nX10 Y0\n")).empty());
   CHECK_FALSE(refusal(replaced("X10\n", "X5 Y20\nX5 Y0\nX10\n")).empty());
   CHECK_FALSE(refusal(replaced("X10\n", "X5\nX4 Y0.5\nX10\n")).empty());
+  CHECK(refusal(replaced("X10\n", "X5\nZ-0.4\nZ0\nX10\n")).find("misses the path by 0.4000 mm") !=
+        std::string::npos);
+}
+
+TEST_CASE("an arc that is left at one of its places is refused") {
+  const auto with = [](const char* cut) {
+    return fmt::format("G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z0 F100\n{}M30\n", cut);
+  };
+  const std::string arc = with("G2 X10 Y10 I10 J0\n");
+  const auto halves = [&](const char* between) {
+    return with(fmt::format("G2 X2.929 Y7.071 I10 J0\n{}G2 X10 Y10 I7.071 J-7.071\n", between).c_str());
+  };
+  CHECK(refusal(halves(""), arc).empty());
+  for (const char* away : {"G1 Z-30\nZ0\n", "G1 X2.2 Y7.8\nX2.929 Y7.071\n", "G1 Z-3\nZ-1\nZ0\n"}) {
+    CAPTURE(away);
+    CHECK(refusal(halves(away), arc).find("misses the path by") != std::string::npos);
+  }
+}
+
+TEST_CASE("a place that the original states is stated") {
+  CHECK(refusal(replaced("X0 Y0 ", "")) ==
+        "2, original 2: the position in X is not known here: no move before has a word for it");
+  const std::string holes = "G21 G90 G17\nG0 X0 Y0 Z5\nG98 G81 X10 Y0 Z-5 R2 F100\nX20\nG80\nM30\n";
+  std::string without_y = holes;
+  for (const char* word : {"Y0 Z5", "Y0 Z-5"}) without_y.erase(without_y.find(word), 3);
+  CHECK(refusal(without_y, holes).find("the position in Y is not known here") != std::string::npos);
+  std::string lower = holes;
+  lower.insert(lower.find("X20") + 3, " R0.4");
+  CHECK(refusal(lower, holes) ==
+        "4, original 4: the retract plane R is shifted by -1.6000 mm, the bottom of the hole by 0.0000 mm");
+}
+
+TEST_CASE("the mark of UTF-8 stays before the header") {
+  const std::string mark = "\xEF\xBB\xBF", text = mark + spindle_stop;
+  CHECK(refusal(text, text).empty());
+  CHECK(refusal(mark + "(COUNTERFLEX 1 VERSION 0.1.0)\n" + spindle_stop, text).empty());
 }
 
 TEST_CASE("a line that holds no move has to stay as it is") {
