@@ -152,6 +152,13 @@ void OtherLines::end_calls(bool at_hole) {
   waiting_.clear();
 }
 
+// Elsewhere the checks of a guard could skip moves.
+bool OtherLines::is_of_guard(const Program& window, std::size_t line_begin) {
+  if (guard_ == Guard::behind || !is_line_of_guard(window, line_begin)) return false;
+  guard_ = Guard::inside;
+  return true;
+}
+
 std::vector<std::size_t> OtherLines::add(const Program& window) {
   std::vector<std::size_t> counts(window.moves.size());
   const std::vector<std::size_t> order = in_text_order(window);
@@ -168,6 +175,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true) {
       const Move& move = window.moves[order[next_move]];
       end_calls(move.called && !move.called->modal.empty());
+      if (guard_ == Guard::inside || move.motion == Motion::feed || move.cycle) guard_ = Guard::behind;
       counts[order[next_move++]] = count_;
     }
     if (moves) {
@@ -186,7 +194,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       line_begin += byte_order_mark.size();
     }
     const bool calls = siemens && calls_modal_cycle(line);
-    if (is_line_of_guard(window, line_begin)) continue;
+    if (is_of_guard(window, line_begin)) continue;
     const std::size_t first_count = next_count;
     std::string counted = without(window.counts, window.text, line, line_begin, next_count);
     // A target of moves may have lines of its own.
@@ -196,6 +204,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     counted = line_kept_words(window, line, std::move(counted));
     std::string statement = statement_of(window, counted, sets_surface_);
     if (is_header(statement) || (klartext && statement.empty())) continue;
+    if (guard_ == Guard::inside) guard_ = Guard::behind;
     if (calls || !waiting_.empty()) {
       waiting_.push_back({{line_of_file(window.expansion, lines_before_ + 1), std::move(statement)}, calls});
       continue;

@@ -39,15 +39,19 @@ class OtherLines {
     bool calls = false;  // MCALL with a drilling cycle
   };
 
+  enum class Guard { before, inside, behind };  ///< where the text is: one block, before the first cut
+
   void end_statement();
   void end_calls(bool at_hole);
+  bool is_of_guard(const Program& window, std::size_t line_begin);
 
   std::vector<OtherLine> statement_{};       // that is being read
   std::vector<WaitingLine> waiting_{};       // for the next move, from an MCALL on
   bool sets_surface_ = false;                // it
   std::vector<std::string> last_surface_{};  // the last one that has
-  int lines_before_ = 0;                     // of the text, before the window
-  std::size_t count_ = 0;                    // without a move
+  Guard guard_ = Guard::before;
+  int lines_before_ = 0;   // of the text, before the window
+  std::size_t count_ = 0;  // without a move
 };
 
 /// A move with the text that holds it.
