@@ -109,6 +109,7 @@ Pose in_offset(const ProgramFrame& frame);
 struct ExternalAxis {
   double value = 0;
   int line = 0;
+  int unknown_in = 0;  ///< line of the first target at which it may have another value; 0: none
 };
 
 /// Targets that a robot passes without a stop: the control rounds the path there.

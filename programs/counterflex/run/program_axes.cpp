@@ -36,6 +36,18 @@ void refuse_outside_travel(const Actuator& axis, const Overview& program) {
                   axis.joint.kind == JointKind::prismatic ? "min_mm and max_mm" : "min_deg and max_deg"));
 }
 
+void refuse_unknown(const Actuator& axis, const Overview& program) {
+  const auto& given = value_of(axis, program.external_axes);
+  if (!given || given->unknown_in == 0) return;
+  throw InputError(
+      ErrorKind::program_text, {program.file, given->unknown_in, 1},
+      fmt::format("external axis E{0} is not known at this target: line {1} gives {2:.6g}, {3}; give E{0} in "
+                  "this target",
+                  axis.program_axis, given->line, given->value,
+                  given->unknown_in < given->line ? "which is behind it"
+                                                  : "and a statement in between may have moved it"));
+}
+
 std::string home_words(const Actuator& axis) {
   return fmt::format("the program does not give external axis E{}: {} = {:.6g} of the machine file is used",
                      axis.program_axis, axis.joint.kind == JointKind::prismatic ? "home_mm" : "home_deg",
@@ -71,6 +83,7 @@ std::vector<Remark> place_program_axes(const Overview& program, MachineInput& in
   ProgramAxisValues values;
   for (const Actuator& axis : axes) {
     refuse_outside_travel(axis, program);
+    refuse_unknown(axis, program);
     const auto& given = value_of(axis, program.external_axes);
     if (given)
       values.at(static_cast<std::size_t>(axis.program_axis - 1)) = given->value;

@@ -149,6 +149,9 @@ std::optional<Failure> external_failure(const Job& job, const MatchedMoves& matc
     if (wanted && found && wanted->value != found->value)
       return matched.failure(fmt::format("external axis E{} is at {}, in the original at {}", i + 1,
                                          found->value, wanted->value));
+    if (wanted && found && wanted->unknown_in == 0 && found->unknown_in > 0)
+      return matched.failure(
+          fmt::format("external axis E{} is not known at the target in line {}", i + 1, found->unknown_in));
   }
   return std::nullopt;
 }

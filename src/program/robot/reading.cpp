@@ -75,11 +75,15 @@ bool place_external(const RobotTarget& target, RobotReading& r, int line) {
   bool stay = true;
   for (std::size_t i = 0; i < target.external.size(); ++i) {
     const std::optional<double> value = target.external[i] ? target.external[i] : state.external[i];
-    if (!value) continue;
+    std::optional<ExternalAxis>& first = r.program.external_axes[i];
+    if (!value) {
+      int& unknown_in = first ? first->unknown_in : state.external_unknown_in[i];
+      if (unknown_in == 0) unknown_in = line;
+      continue;
+    }
     stay = stay && state.external[i] == value;
     state.external[i] = value;
-    std::optional<ExternalAxis>& first = r.program.external_axes[i];
-    if (!first) first = ExternalAxis{*value, line};
+    if (!first) first = ExternalAxis{*value, line, state.external_unknown_in[i]};
     if (first->value == *value || r.program.external_axes_move) continue;
     r.program.external_axes_move =
         Remark{line, fmt::format("external axis E{} moves from {} to {}: a program is corrected only if its "

@@ -18,6 +18,7 @@ struct RobotState {
   OrientationNumbers orientation{};
   std::array<bool, 4> known_orientation{};  ///< by number
   std::array<std::optional<double>, 6> external{};
+  std::array<int, 6> external_unknown_in{};  ///< line of the first target before any that gives the axis
   /// A joint target after which no statement moved the robot; the position is unknown until the next move.
   std::optional<JointPlace> joints{};
   int joints_line = 0;                        ///< of that target

@@ -72,12 +72,14 @@ std::optional<std::size_t> external_axis(std::string_view name) {
   return static_cast<std::size_t>(name[1] - '1');
 }
 
-std::array<std::optional<double>, 6> external_of(const KrlAggregate& aggregate) {
-  std::array<std::optional<double>, 6> external;
+using ExternalValues = std::array<std::optional<double>, 6>;
+
+/// An axis that the aggregate does not have stays as `before`.
+ExternalValues external_of(const KrlAggregate& aggregate, ExternalValues before = {}) {
   for (const KrlComponent& component : aggregate.components)
-    if (const auto axis = external_axis(component.name); axis && component.number)
-      external[*axis] = component.number->value;
-  return external;
+    if (const auto axis = external_axis(component.name))
+      before[*axis] = component.number ? std::optional(component.number->value) : std::nullopt;
+  return before;
 }
 
 /// The place of an aggregate that gives A1 to A6 and no other axis of the robot.
@@ -164,8 +166,9 @@ void read_ptp(KrlReading& r, const RobotLine& line, std::string_view head, const
   // A routine that was called may have changed a named target.
   const bool is_known = is_sure && (statement.operands.front().aggregate || !r.has_called);
   const bool stops = is_known && !with_zone(r, statement, {.motion = Motion::rapid}).passes;
+  const auto before = r.robot.state.external;
   add_joint_move(r.robot, line, std::move(why), stops ? joints_of(*aggregate) : std::nullopt);
-  if (is_sure) r.robot.state.external = external_of(*aggregate);
+  if (is_known) r.robot.state.external = external_of(*aggregate, before);
 }
 
 /// The orientation and the external axes of a relative target; a zero changes nothing.
