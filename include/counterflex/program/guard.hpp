@@ -25,6 +25,8 @@ struct Guard {
   LengthUnit unit = LengthUnit::millimetres;  ///< of the program at the first cut
   /// The program shifts or turns its coordinates in the offset (G52, G92, G68).
   bool program_shifts = false;
+  /// Of the offset of a machine tool about Z (deg, from -180 to 180). Empty: it is turned about X or Y, too.
+  std::optional<double> turn_deg = 0;
   bool is_chosen = true;                         ///< the last T of the program is this tool
   LengthUnit control = LengthUnit::millimetres;  ///< of a control whose numbers do not depend on the program
 };

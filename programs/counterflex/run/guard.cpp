@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <iterator>
 #include <utility>
 
@@ -69,6 +70,14 @@ GuardedOffset offset_of(const Run& run, const Cut& cut) {
   refuse_unknown_numbers(run, name);
 }
 
+/// In deg; empty for a frame whose z axis is another one.
+std::optional<double> turn_about_z(const Matrix3& R) {
+  constexpr double rounding = 1e-9;
+  if (!(R(2, 2) > 1 - rounding)) return std::nullopt;
+  const double turn = std::atan2(R(1, 0), R(0, 0)) / deg;
+  return std::abs(turn) < rounding ? 0 : turn;
+}
+
 Guard guard_of(const Run& run, const Cut& cut) {
   Guard guard;
   guard.active = offset_of(run, cut);
@@ -80,8 +89,8 @@ Guard guard_of(const Run& run, const Cut& cut) {
     guard.length_mm = length->second;
   guard.unit = cut.move.unit;
   guard.control = run.read.unit.value_or(LengthUnit::millimetres);
-  const bool is_turned = !guard.active.R->isIdentity(1e-9);
-  guard.program_shifts = !cut.frame.origin_mm.isZero(0) || cut.frame.turn_rad != 0 || is_turned;
+  guard.program_shifts = !cut.frame.origin_mm.isZero(0) || cut.frame.turn_rad != 0;
+  guard.turn_deg = turn_about_z(*guard.active.R);
   return guard;
 }
 

@@ -98,8 +98,11 @@ std::vector<std::string> linuxcnc_guard(const Guard& guard) {
     lines.refuse_if(fmt::format("ABS[#{} - [{}]] GT {}", 5201 + 20 * system + axis, v.value, v.window),
                     fmt::format("{} {} MUST BE {}", guard.active.name, "XYZ"[axis], v.range));
   }
-  if (!guard.program_shifts)
-    lines.refuse_if(fmt::format("#{} NE 0", 5210 + 20 * system), guard.active.name + " MUST NOT BE ROTATED");
+  if (!guard.program_shifts) {
+    const GuardedValue turn = guarded_turn(guard);
+    lines.refuse_if(fmt::format("ABS[#{} - [{}]] GT {}", 5210 + 20 * system, turn.value, turn.window),
+                    fmt::format("THE ROTATION OF {} MUST BE {}", guard.active.name, turn.range));
+  }
   if (guard.tool > 0)
     lines.refuse_if(fmt::format("#5400 NE {}", guard.tool),
                     fmt::format("TOOL T{} MUST BE IN THE SPINDLE", guard.tool));
@@ -113,7 +116,7 @@ std::vector<std::string> linuxcnc_guard(const Guard& guard) {
 
 std::string why_no_linuxcnc_guard(const Guard& guard) {
   return number_of_offset(guard.active.name).basic > 0
-             ? ""
+             ? why_no_guard_of_tilted(guard)
              : fmt::format("LinuxCNC has no work offset {}, leave out --guard", guard.active.name);
 }
 

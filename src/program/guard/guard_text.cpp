@@ -100,6 +100,19 @@ GuardedValue guarded_value(double mm, double window_mm, LengthUnit unit) {
           fmt::format("{} TO {} {}", guard_number(value - window), guard_number(value + window), name)};
 }
 
+GuardedValue guarded_turn(const Guard& guard) {
+  constexpr double window = 1e-4;  // deg: 2 um in a metre
+  const double turn = guard.turn_deg.value_or(0);
+  return {guard_number(turn), guard_number(window), fmt::format("{} DEG", guard_number(turn))};
+}
+
+std::string why_no_guard_of_tilted(const Guard& guard) {
+  if (guard.turn_deg) return "";
+  return fmt::format(
+      "{} is turned about X or Y, and the checks compare a turn about Z alone: leave out --guard",
+      guard.active.name);
+}
+
 std::string guard_title(const Guard& guard) {
   const Vector3& p = guard.active.shown_mm;
   return fmt::format("COUNTERFLEX 1 GUARD: CORRECTED FOR {} AT X{} Y{} Z{} MM, HOLDS WITHIN {} MM",

@@ -33,6 +33,12 @@ struct GuardedValue {
 };
 GuardedValue guarded_value(double mm, double window_mm, LengthUnit unit);
 
+/// The same of the turn of an offset about Z, which has one.
+GuardedValue guarded_turn(const Guard& guard);
+
+/// Why an offset that is turned about X or Y has no guard; empty for others.
+std::string why_no_guard_of_tilted(const Guard& guard);
+
 /// "CORRECTED FOR G54 X120 Y80 Z-250 MM": the first line of a guard.
 std::string guard_title(const Guard& guard);
 

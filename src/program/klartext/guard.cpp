@@ -57,7 +57,7 @@ std::vector<std::string> klartext_guard(const Guard& guard) {
   }
   if (!guard.program_shifts) {
     lines.add("FN 18: SYSREAD Q1991 = ID507 NRQ1990 IDX6");
-    lines.require(9, "EQU +0", wrong_start, "PRESET SPC MUST BE 0");
+    require_within(guarded_turn(guard), "PRESET SPC", wrong_start, lines);
     for (int axis = 0; axis < 3; ++axis)
       lines.add(fmt::format("FN 18: SYSREAD Q{} = ID220 NR2 IDX{}", 1991 + axis, axis + 1));
     lines.add("Q1991 = ABS Q1991 + ABS Q1992 + ABS Q1993");
@@ -76,8 +76,8 @@ std::vector<std::string> klartext_guard(const Guard& guard) {
   return lines.take();
 }
 
-std::string why_no_klartext_guard(const Guard&) {
-  return "";
+std::string why_no_klartext_guard(const Guard& guard) {
+  return why_no_guard_of_tilted(guard);
 }
 
 }  // namespace counterflex

@@ -64,8 +64,10 @@ std::vector<std::string> siemens_guard(const Guard& guard) {
         fmt::format("{} {} MUST BE {}", guard.active.name, name, v.range));
   }
   if (!guard.program_shifts) {
-    lines.refuse_if("ABS($P_IFRAME[X,RT])+ABS($P_IFRAME[Y,RT])+ABS($P_IFRAME[Z,RT])>0.001",
-                    guard.active.name + " MUST NOT BE ROTATED");
+    const GuardedValue turn = guarded_turn(guard);
+    lines.refuse_if(fmt::format("ABS($P_IFRAME[X,RT])+ABS($P_IFRAME[Y,RT])+ABS($P_IFRAME[Z,RT]-({}))>{}",
+                                turn.value, turn.window),
+                    fmt::format("THE ROTATION OF {} MUST BE {}", guard.active.name, turn.range));
     lines.refuse_if("ABS($P_PFRAME[X,TR])+ABS($P_PFRAME[Y,TR])+ABS($P_PFRAME[Z,TR])>0.001",
                     "NO TRANS MAY ACT");
   }
@@ -89,7 +91,7 @@ std::string why_no_siemens_guard(const Guard& guard) {
     return "the program and the control have different units, and G70, G71, G700 and G710 differ in the unit "
            "of "
            "offsets: state `units` of [program] as it is on the control, or leave out --guard";
-  return "";
+  return why_no_guard_of_tilted(guard);
 }
 
 }  // namespace counterflex

@@ -110,8 +110,8 @@ o<counterflex_guard_5> endif (CF #)
 o<counterflex_guard_6> if [ABS[#5223 - [-250.5]] GT 0.25] (CF #)
 (CF #) (abort, COUNTERFLEX GUARD: G54 Z MUST BE -250.75 TO -250.25 MM)
 o<counterflex_guard_6> endif (CF #)
-o<counterflex_guard_7> if [#5230 NE 0] (CF #)
-(CF #) (abort, COUNTERFLEX GUARD: G54 MUST NOT BE ROTATED)
+o<counterflex_guard_7> if [ABS[#5230 - [0]] GT 0.0001] (CF #)
+(CF #) (abort, COUNTERFLEX GUARD: THE ROTATION OF G54 MUST BE 0 DEG)
 o<counterflex_guard_7> endif (CF #)
 o<counterflex_guard_8> if [#5400 NE 3] (CF #)
 (CF #) (abort, COUNTERFLEX GUARD: TOOL T3 MUST BE IN THE SPINDLE)
@@ -120,6 +120,22 @@ o<counterflex_guard_9> if [ABS[#5403 - [92.5]] GT 0.25] (CF #)
 (CF #) (abort, COUNTERFLEX GUARD: THE TOOL LENGTH MUST BE 92.25 TO 92.75 MM)
 o<counterflex_guard_9> endif (CF #)
 )");
+}
+
+TEST_CASE(
+    "an offset that is turned about Z has the checks of one that is not, one turned about X or Y has none") {
+  Guard guard = guard_of("G54");
+  guard.turn_deg = -30;
+  const std::string cut = "G0 X0 Y0 Z5\n", behind = "G1 Z-1 F200\nM30\n";
+  const std::string linuxcnc = text_of_guard("G21 G90 G54\n" + cut, behind, "linuxcnc", guard),
+                    siemens = text_of_guard("G71 G90 G54\n" + cut, behind, "siemens", guard);
+  CHECK(linuxcnc.find("[#5210 NE 0]") != std::string::npos);
+  CHECK(linuxcnc.find("[ABS[#5230 - [-30]] GT 0.0001]") != std::string::npos);
+  CHECK(siemens.find("ABS($P_IFRAME[Z,RT]-(-30))>0.0001") != std::string::npos);
+  guard.turn_deg.reset();
+  for (const char* dialect : {"linuxcnc", "siemens", "heidenhain"})
+    CHECK(why_no_guard(dialect, guard) ==
+          "G54 is turned about X or Y, and the checks compare a turn about Z alone: leave out --guard");
 }
 
 TEST_CASE("registers of LinuxCNC are in the unit of its machine, and those of G59.3 the last ones") {
@@ -138,7 +154,7 @@ TEST_CASE("registers of LinuxCNC are in the unit of its machine, and those of G5
   CHECK(text.find("[#5220 NE 9]") != std::string::npos);
   CHECK(text.find("[ABS[#5381 - [1]] GT 0.009842]") != std::string::npos);  // rounded down
   CHECK(text.find("[ABS[#5383 - [-2]] GT 0.009842]") != std::string::npos);
-  for (const char* other : {"#5210", "ROTATED", "#5400", "#5403"})
+  for (const char* other : {"#5210", "ROTATION", "#5400", "#5403"})
     CHECK(text.find(other) == std::string::npos);
 }
 
@@ -194,8 +210,8 @@ TEST_CASE("the guard of a Sinumerik") {
             check("ABS($P_IFRAME[Y,TR]+$P_IFRAME[Y,FI]-(80))>0.25", 3, "G54 Y MUST BE 79.75 TO 80.25 MM") +
             check("ABS($P_IFRAME[Z,TR]+$P_IFRAME[Z,FI]-(-250.5))>0.25", 4,
                   "G54 Z MUST BE -250.75 TO -250.25 MM") +
-            check("ABS($P_IFRAME[X,RT])+ABS($P_IFRAME[Y,RT])+ABS($P_IFRAME[Z,RT])>0.001", 5,
-                  "G54 MUST NOT BE ROTATED") +
+            check("ABS($P_IFRAME[X,RT])+ABS($P_IFRAME[Y,RT])+ABS($P_IFRAME[Z,RT]-(0))>0.0001", 5,
+                  "THE ROTATION OF G54 MUST BE 0 DEG") +
             check("ABS($P_PFRAME[X,TR])+ABS($P_PFRAME[Y,TR])+ABS($P_PFRAME[Z,TR])>0.001", 6,
                   "NO TRANS MAY ACT") +
             check("$P_TOOLNO<>3", 7, "TOOL T3 MUST BE ACTIVE") +
@@ -232,8 +248,9 @@ TEST_CASE("the guard of Klartext, whose blocks are numbered again") {
       check("PRESET Y MUST BE 79.75 TO 80.25 MM", "12: IF +Q1991 LT +0.25", 1005, 2) + read_preset(3) +
       "Q1991 = ABS ( Q1991 - ( -250.5 ) ) ; CF #\n" +
       check("PRESET Z MUST BE -250.75 TO -250.25 MM", "12: IF +Q1991 LT +0.25", 1005, 3) + read_preset(6) +
-      check("PRESET SPC MUST BE 0", "9: IF +Q1991 EQU +0", 1005, 4) + shift(1) + shift(2) + shift(3) +
-      "Q1991 = ABS Q1991 + ABS Q1992 + ABS Q1993 ; CF #\n" +
+      "Q1991 = ABS ( Q1991 - ( 0 ) ) ; CF #\n" +
+      check("PRESET SPC MUST BE 0 DEG", "12: IF +Q1991 LT +0.0001", 1005, 4) + shift(1) + shift(2) +
+      shift(3) + "Q1991 = ABS Q1991 + ABS Q1992 + ABS Q1993 ; CF #\n" +
       check("NO DATUM SHIFT MAY ACT", "9: IF +Q1991 EQU +0", 1005, 5) +
       "FN 18: SYSREAD Q1991 = ID20 NR1 ; CF #\n" +
       check("TOOL 3 MUST BE ACTIVE", "9: IF +Q1991 EQU +3", 1011, 6) +
