@@ -76,6 +76,10 @@ class Compensating(unittest.TestCase):
         by_option = counterflex.predict(plain, self.machine, force='215,-10,-25,1,21.5,0')
         self.assertEqual(by_wrench.waypoints.tobytes(), by_option.waypoints.tobytes())
         self.assertEqual(by_wrench.verdict, 'PREDICTED')
+        by_numbers = counterflex.predict(plain, self.machine, force=MILLING)
+        self.assertEqual(by_wrench.waypoints.tobytes(), by_numbers.waypoints.tobytes())
+        with self.assertRaisesRegex(counterflex.InputError, 'both are given for the whole program'):
+            counterflex.predict(plain, self.machine, MILLING, force='1,2,3')
         slot = SAMPLES / 'orthoglide-slot'
         by_file = counterflex.predict((slot / 'slot.ngc').read_bytes(), self.machine, slot / 'forces.toml')
         self.assertGreater(by_file.data['forces']['largest_N'], 30)

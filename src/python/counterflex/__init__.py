@@ -335,25 +335,36 @@ def _texts_of(value: Any) -> list[bytes]:
     return [text for entry in value for text in _texts_of(entry)]
 
 
+def _wrench_text(values: Any, name: str) -> bytes:
+    wrench = np.asarray(values, dtype=np.float64)
+    if wrench.shape not in ((3,), (6,)) or not np.isfinite(wrench).all():
+        raise ValueError(f"{name} is {values!r}, must be paths of files, or a wrench of 3 or 6 finite numbers")
+    return ",".join(repr(float(number)) for number in wrench).encode()
+
+
+def _has_numbers(value: Any) -> bool:
+    return not _is_path(value) and np.ndim(value) == 1 and np.asarray(value).dtype.kind in "iuf"
+
+
 def _given(forces: Forces, options: Mapping[str, OptionValue]) -> list[tuple[str, list[bytes]]]:
-    given = []
+    given: dict[str, list[bytes]] = {}
     for key, value in options.items():
         option = "-".join(key.split("_"))
         if option not in _OPTIONS:
             near = difflib.get_close_matches(option, _OPTIONS, 1)
             hint = "; did you mean '{}'?".format(near[0].replace("-", "_")) if near else ""
             raise TypeError(f"unknown option '{key}'{hint}")
-        if value is not None:
-            given.append((option, _texts_of(value)))
-    if forces is None:
-        return given
-    paths: list[Any] = [forces] if _is_path(forces) else list(forces)  # type: ignore[arg-type]
-    if paths and all(_is_path(path) for path in paths):
-        return [*given, ("forces", [os.fsencode(path) for path in paths])]
-    wrench = np.asarray(forces, dtype=np.float64)
-    if wrench.shape not in ((3,), (6,)) or not np.isfinite(wrench).all():
-        raise ValueError(f"forces is {forces!r}, must be paths of files, or a wrench of 3 or 6 finite numbers")
-    return [*given, ("force", [",".join(repr(float(number)) for number in wrench).encode()])]
+        if value is None:
+            continue
+        is_wrench = option == "force" and _has_numbers(value)
+        given.setdefault(option, []).extend([_wrench_text(value, key)] if is_wrench else _texts_of(value))
+    if forces is not None:
+        paths: list[Any] = [forces] if _is_path(forces) else list(forces)  # type: ignore[arg-type]
+        if paths and all(_is_path(path) for path in paths):
+            given.setdefault("forces", []).extend(os.fsencode(path) for path in paths)
+        else:
+            given.setdefault("force", []).append(_wrench_text(forces, "forces"))
+    return list(given.items())
 
 
 def _report(result: Any) -> Report:
