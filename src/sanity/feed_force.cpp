@@ -38,7 +38,9 @@ void FeedForceTally::add(const Waypoint& w) {
   push += w.weight * component;
 }
 
-SanityCheck check_feed_force(const FeedForceTally& tally, bool computed) {
+SanityCheck check_feed_force(const FeedForceTally& tally, bool computed,
+                             const std::optional<Failure>& failure) {
+  if (tally.loaded <= 0 && failure) return {"feed force", SanityState::unknown, unknown_behind(*failure)};
   if (tally.loaded <= 0) return {"feed force", SanityState::ok, "no force acts on a feed move"};
   const double share = tally.along / tally.loaded;
   const std::string percent = format_fixed(100 * share, 0);

@@ -16,14 +16,16 @@ void TravelTally::add(const Mechanism& mechanism, const Eigen::VectorXd& rho, in
   share_ = at->share;
 }
 
+std::string unknown_behind(const Failure& failure) {
+  return failure.line > 0 ? fmt::format("unknown after line {}, where the run ended", failure.line)
+                          : "unknown: the run ended early";
+}
+
 SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
                          const std::optional<Failure>& failure) {
   if (failure && failure->status == Status::outside_travel)
     return {"travel", SanityState::doubtful, fmt::format("line {}: {}", failure->line, failure->what)};
-  if (failure)
-    return {"travel", SanityState::unknown,
-            failure->line > 0 ? fmt::format("unknown after line {}, where the run ended", failure->line)
-                              : "unknown: the run ended early"};
+  if (failure) return {"travel", SanityState::unknown, unknown_behind(*failure)};
   const auto least = tally.least();
   if (!least)
     return {"travel", SanityState::unknown,

@@ -72,6 +72,13 @@ TEST_CASE("a force that pushes along the feed nearly everywhere is doubtful") {
   CHECK(check_feed_force(along, true).state == SanityState::ok);
 }
 
+TEST_CASE("the feed force of a run that ended before one acted is unknown") {
+  const SanityCheck check = check_feed_force({}, false, Failure{ErrorKind::limit, 5, "outside its travel"});
+  CHECK(check.state == SanityState::unknown);
+  CHECK(check.text == "unknown after line 5, where the run ended");
+  CHECK(check_feed_force({}).state == SanityState::ok);
+}
+
 TEST_CASE("climb milling on less than three quarters of the path is not doubtful") {
   FeedForceTally tally;
   for (int i = 0; i < 10; ++i) tally.add(cut({i < 7 ? 50.0 : -50.0, 100, 0}));

@@ -91,6 +91,9 @@ class TravelTally {
 SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
                          const std::optional<Failure>& failure);
 
+/// What a check states of the path behind the place where a run ended.
+std::string unknown_behind(const Failure& failure);
+
 /// The force on the tool beside the direction of its feed, over the cutting path where a force acts.
 struct FeedForceTally {
   double loaded = 0;                    ///< m
@@ -105,8 +108,9 @@ struct FeedForceTally {
 
 /// Doubtful where the force pushes along the feed on more than three quarters of the path, or keeps its
 /// direction in the machine while the feed turns; never where all forces are `computed` from the cut, so that
-/// their sense is not typed.
-SanityCheck check_feed_force(const FeedForceTally& tally, bool computed = false);
+/// their sense is not typed. Unknown where a run with a `failure` ended before any force acted.
+SanityCheck check_feed_force(const FeedForceTally& tally, bool computed = false,
+                             const std::optional<Failure>& failure = {});
 
 /// Forces (N) and the tolerance (mm) that hardly any run has; empty where they are usual.
 SanityChecks check_force_size(double largest_N);

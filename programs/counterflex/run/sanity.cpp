@@ -118,7 +118,7 @@ SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally&
     checks.insert(home + 1, std::move(*stiffness));
   }
   checks.push_back(check_travel(run.machine.model.mechanism, tally.travel(), report.failure));
-  checks.push_back(check_feed_force(tally.feed_force(), are_computed(run)));
+  checks.push_back(check_feed_force(tally.feed_force(), are_computed(run), report.failure));
   append(checks, check_force_size(report.forces.largest_N));
   append(checks, check_tolerance(report.tolerance_mm));
   return checks;
