@@ -42,6 +42,7 @@ Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, co
   for (const Remark& warning : context.facts.warnings) list(all, warning);
   for (const Remark& remark : context.program.remarks) list(all, remark);
   list(all, tally.force_notes());
+  list(all, tally.direction_notes());
   list_tilted(report, all);
   for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;

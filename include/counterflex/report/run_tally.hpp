@@ -193,6 +193,7 @@ class RunTally {
   const std::vector<OperationNames::Name>& operation_names() const { return operation_names_.names(); }
   LengthUnit unit() const { return unit_.value_or(LengthUnit::millimetres); }  ///< of the first feed move
   const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps, steps and moves without one
+  const Capped<Remark>& direction_notes() const { return direction_notes_; }
   const Capped<Remark>& force_notes() const { return force_notes_; }
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
   std::size_t corrected_moves() const { return corrected_moves_; }
@@ -225,6 +226,7 @@ class RunTally {
   std::optional<LengthUnit> unit_;
   ForceSummary forces_;
   Capped<Remark> force_notes_;
+  Capped<Remark> direction_notes_;  ///< of reversals
   Capped<LeftAlone> left_alone_;
   OtherMoves other_moves_;
   std::optional<Capped<ReversalRow>> reversals_;

@@ -21,12 +21,13 @@ constexpr double same_place = 10 * um;
 constexpr double turning_accuracy = 1e-7;   // of a step; the axis hardly moves beside a turning point
 constexpr std::size_t most_together = 256;  // places
 
-/// A place of the path.
+/// A place of the path, or the last one where the position of `lost` axes of the program is not known.
 struct Place {
   std::size_t move = 0;
   double u = 0;
   TipPosition at{};
   const Segment* segment = nullptr;
+  std::array<bool, 3> lost{};
 };
 
 Place place_on(const Model& model, const Segment& segment, double u) {
@@ -48,9 +49,8 @@ void add_segment(const Job& job, const Segment& segment, std::vector<Place>& pla
 }
 
 /// Positions of moves that have no segment: the hole of a cycle, and a position from an unknown one.
-void add_positions(const Job& job, std::size_t m, std::vector<Place>& places) {
+void add_position(const Job& job, std::size_t m, std::vector<Place>& places) {
   const Move& move = job.program.moves[m];
-  if (!all_known(move.known_end)) return;
   const Model& model = model_of(job, m);
   const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
   const std::optional<Matrix3> R = orientation_of(job, move);
@@ -63,15 +63,39 @@ void add_positions(const Job& job, std::size_t m, std::vector<Place>& places) {
   add(1, bottom);
 }
 
-std::vector<Place> places_of(const Job& job) {
+/// The place behind `last` where a move has `known` axes; the others are where they were.
+Place place_without(const Job& job, std::size_t m, const std::array<bool, 3>& known, const Vector3& at_mm,
+                    const TipPosition& last) {
+  const Pose X_MW = wanted_frame(job.path.frames[job.program.moves[m].frame]);
+  Vector3 p_mm = inverse(X_MW) * last.p_MT / mm;
+  Place place{m, 0, {&model_of(job, m), {}, last.R_MT}};
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (known[axis]) p_mm[k] = at_mm[k];
+    place.lost[axis] = !known[axis];
+  }
+  place.at.p_MT = X_MW * (p_mm * mm);
+  return place;
+}
+
+/// `last`: where the window before ended.
+std::vector<Place> places_of(const Job& job, const std::optional<Vector3>& last) {
   std::vector<Place> places;
+  const auto add_lost = [&](std::size_t m, const std::array<bool, 3>& known, const Vector3& at_mm) {
+    if (all_known(known) || (places.empty() && !last)) return;
+    const TipPosition before = places.empty() ? TipPosition{nullptr, *last, {}} : places.back().at;
+    places.push_back(place_without(job, m, known, at_mm, before));
+  };
   std::size_t next = 0;
   for (std::size_t m = 0; m < job.program.moves.size(); ++m) {
-    const bool has_segment = next < job.path.segments.size() && job.path.segments[next].move == m;
-    if (has_segment)
+    const Move& move = job.program.moves[m];
+    add_lost(m, move.known_start, move.start_mm);
+    if (next < job.path.segments.size() && job.path.segments[next].move == m)
       add_segment(job, job.path.segments[next++], places);
+    else if (all_known(move.known_end))
+      add_position(job, m, places);
     else
-      add_positions(job, m, places);
+      add_lost(m, move.known_end, move.end_mm);
   }
   return places;
 }
@@ -81,7 +105,7 @@ class Follower {
   Follower(const Job& job, DirectionsEnd& end) : job_(job), end_(end), solver_(job), path_(end.directions) {}
 
   PathDirections run() {
-    const std::vector<Place> places = places_of(job_);
+    const std::vector<Place> places = places_of(job_, end_.p_MT);
     for (std::size_t first = 0; first < places.size(); first += most_together) {
       const std::size_t count = std::min(most_together, places.size() - first);
       std::vector<TipPosition> positions;
@@ -103,30 +127,75 @@ class Follower {
   };
 
   void go_to(const Place& place, const Eigen::VectorXd& values) {
+    const Mechanism& mechanism = place.at.model->mechanism;
+    end_.p_MT = place.at.p_MT;
+    end_.lost.resize(mechanism.reversal.size());
     if (end_.rho.size() != values.size()) {
       end_.rho = values;
       last_ = {place};
       return;
     }
-    const Mechanism& mechanism = place.at.model->mechanism;
     const Eigen::VectorXd rho = values + full_turns(mechanism, values, end_.rho);
+    const std::vector<bool> lost = lost_actuators(place, rho);
     std::vector<Turning> turnings;
     for (std::size_t a = 0; a < mechanism.reversal.size(); ++a) {
       const double way = rho[static_cast<Eigen::Index>(a)] - end_.rho[static_cast<Eigen::Index>(a)];
       const int sign = way > 0 ? 1 : -1;
-      if (!(std::abs(way) > least_motion) || end_.directions.of(a) == sign) continue;
-      turnings.push_back({turning_point(place, a, sign), a, sign});
+      if (end_.lost[a].position || lost[a]) {
+        if (end_.lost[a].before == 0) end_.lost[a].before = job_.program.moves[place.move].line;
+        end_.lost[a].position = lost[a];
+        continue;
+      }
+      if (!(std::abs(way) > least_motion)) continue;
+      end_.lost[a] = {};
+      if (end_.directions.of(a) != sign) turnings.push_back({turning_point(place, a, sign), a, sign});
     }
+    note_doubts(place, mechanism);
     std::ranges::stable_sort(turnings, {}, &Turning::u);
     for (Turning& t : turnings) {
       t.u = shared_place(place, t.u);
       const bool reverses = end_.directions.of(t.actuator) == -t.sign && mechanism.reversal[t.actuator] > 0;
       end_.directions.set(t.actuator, t.sign);
-      path_.add({place.move, t.u, t.actuator, end_.directions, reverses});
+      path_.add(DirectionChange{place.move, t.u, t.actuator, end_.directions, reverses});
     }
     end_.rho = rho;
     last_.push_back(place);
     if (last_.size() > 2) last_.erase(last_.begin());
+  }
+
+  /// Whether each actuator moves with an axis whose position is not known.
+  std::vector<bool> lost_actuators(const Place& place, const Eigen::VectorXd& rho) {
+    constexpr double probe = 1 * mm;
+    const Matrix3 R_MW = wanted_frame(job_.path.frames[job_.program.moves[place.move].frame]).R;
+    const Mechanism& mechanism = place.at.model->mechanism;
+    std::vector<bool> lost(mechanism.reversal.size());
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      if (!place.lost[axis]) continue;
+      TipPosition beside = place.at;
+      beside.p_MT += probe * R_MW.col(static_cast<Eigen::Index>(axis));
+      const NominalResult nominal = std::move(solver_.nominals({&beside, 1}).front());
+      const bool is_found = nominal.status == Status::converged;
+      Eigen::VectorXd there = is_found ? actuator_values(mechanism, nominal.configuration) : rho;
+      there += full_turns(mechanism, there, rho);
+      for (std::size_t a = 0; a < lost.size(); ++a) {
+        const auto k = static_cast<Eigen::Index>(a);
+        if (!is_found || std::abs(there[k] - rho[k]) > least_motion) lost[a] = true;
+      }
+    }
+    return lost;
+  }
+
+  /// At the end of a cut.
+  void note_doubts(const Place& place, const Mechanism& mechanism) {
+    const Move& move = job_.program.moves[place.move];
+    const bool cuts = place.segment != nullptr ? place.segment->cutting : static_cast<bool>(move.cycle);
+    if (!cuts || place.u != 1) return;
+    for (std::size_t a = 0; a < end_.lost.size(); ++a) {
+      DirectionsEnd::Lost& lost = end_.lost[a];
+      if (lost.before == 0 || lost.reported || !(mechanism.reversal[a] > 0)) continue;
+      lost.reported = true;
+      path_.add(DoubtfulDirection{move.line, a, lost.before});
+    }
   }
 
   /// Several joints of an arm turn back at one place, but for rounding: they reverse together there. A

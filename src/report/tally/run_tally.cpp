@@ -83,6 +83,20 @@ void RunTally::add_window(const Job& window) {
   add_reversals(window);
 }
 
+namespace {
+
+std::string words_of(const DoubtfulDirection& doubt, const Mechanism& mechanism) {
+  const Travel& travel = mechanism.travel[doubt.actuator];
+  const bool slides = travel.kind == JointKind::prismatic;
+  return fmt::format(
+      "from which side {} came here is not known: its position before line {} is not. The direction of its "
+      "last known motion counts; in the other one it is {:.4g} {} off",
+      travel.name, doubt.lost_before, mechanism.reversal[doubt.actuator] / (slides ? um : deg / 1000),
+      slides ? "um" : "mdeg");
+}
+
+}  // namespace
+
 void RunTally::add_reversals(const Job& window) {
   if (window.directions == nullptr) return;
   if (!reversals_) reversals_.emplace();
@@ -90,6 +104,8 @@ void RunTally::add_reversals(const Job& window) {
     if (change.is_reversal)
       list(*reversals_, ReversalRow{window.program.moves[change.move].line,
                                     window.model.mechanism.travel[change.actuator].name});
+  for (const DoubtfulDirection& doubt : window.directions->doubtful())
+    list(direction_notes_, Remark{doubt.line, words_of(doubt, window.model.mechanism)});
 }
 
 FeedMoves RunTally::feed_moves() const {

@@ -1,6 +1,7 @@
 // Axes that lag behind their commands, against the direction of their motion.
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "compensation/support/judge.hpp"
@@ -70,6 +71,37 @@ TEST_CASE("axes reverse where their nominal motion does, and keep their directio
   CHECK(at(4, 0.5).of(0) == -1);
   CHECK(at(5, 0.5).of(0) == -1);  // X does not move
   CHECK(at(5, 0.5).of(1) == 1);
+}
+
+TEST_CASE(
+    "an axis that comes from an unknown position keeps its last direction, which is in doubt until it "
+    "moves") {
+  const auto doubts_of = [](const Shop& shop) {
+    std::vector<std::string> list;
+    for (const DoubtfulDirection& doubt : shop.directions.doubtful())
+      list.push_back(fmt::format("{} {} {}", doubt.line, shop.model.mechanism.travel[doubt.actuator].name,
+                                 doubt.lost_before));
+    return list;
+  };
+  const std::string cut = "G21 G90\nG0 X0. Y0. Z5.\nG1 Z0. F500\nX10. Y5.\nG0 Z5.\n",
+                    next = "G1 Z0.\nY20.\nX30.\nY10.\nM30\n";
+  const Shop known({.machine = mill_with_reversal(), .text = cut + "G0 X-50.\nG0 X-5.\n" + next});
+  CHECK(doubts_of(known).empty());
+  for (const char* way : {"G53 G0 X-50.\nG0 X-5.\n", "G28 X0.\nG0 X-5.\n"}) {
+    CAPTURE(way);
+    const Shop shop({.machine = mill_with_reversal(), .text = cut + way + next});
+    CHECK(doubts_of(shop) == std::vector<std::string>{"8 axis X 7"});
+    const auto of_line = [&](int line) {
+      const auto found = std::ranges::find(shop.program.moves, line, &Move::line);
+      return shop.directions.at(static_cast<std::size_t>(found - shop.program.moves.begin()), 0.5,
+                                Side::after);
+    };
+    CHECK(of_line(9).of(0) == 1);  // a motion to -5 from where it was before would have another sign
+    CHECK(of_line(9).of(1) == 1);
+    CHECK(of_line(11).of(0) == 1);
+    CHECK(reversals_of(shop) ==
+          std::vector<std::string>{"5 axis Z 0.000", "8 axis Z 0.000", "11 axis Y 0.000"});
+  }
 }
 
 TEST_CASE("a command leads its axis by half of the reversal, and a point takes up the lost motion") {
