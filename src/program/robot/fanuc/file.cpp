@@ -4,6 +4,7 @@
 #include <algorithm>
 
 #include "program/robot/fanuc/positions.hpp"
+#include "program/robot/fanuc/read.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -86,6 +87,7 @@ void add_flow(std::string_view text, const RobotLine& line, TpFile& found) {
   if (part(text, line.code).starts_with("//")) return;  // is not executed
   const std::string statement = tp_word(part(text, line.code));
   if (std::optional<long> number; sets_frame(statement, number)) found.frames[number] = line.line;
+  if (tp_calls(text, line.code)) found.last_call = line.line;
   const std::size_t label = statement.find("LBL[");
   if (found.first_jump == 0 && label != std::string::npos && label > 0) found.first_jump = line.line;
 }

@@ -172,6 +172,7 @@ void forget_tp_frames_at_label(TpReading& r, int line) {
   const int jump = r.file.first_jump;
   for (const auto& [number, last] : r.file.frames)
     if (last > line || (jump > 0 && jump < last)) forget_frame(r, number, last);
+  if (r.file.last_call > line) forget_tp_frames(r, r.file.last_call);
 }
 
 }  // namespace counterflex

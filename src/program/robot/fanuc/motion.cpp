@@ -120,6 +120,10 @@ TpMotion tp_motion(std::string_view text, Span code) {
   motion.type = type;
   next += read_speed(text, std::span(words).subspan(next), motion);
   while (next < words.size() && read_option(text, words[next], motion)) ++next;
+  if (next < words.size()) {  // at a timed option
+    const std::string action = tp_word(part(text, {words[next].begin, code.end}));
+    motion.action = action.substr(std::min(action.find(','), action.size() - 1) + 1);
+  }
   return motion;
 }
 

@@ -30,6 +30,7 @@ struct TpFile {
   std::optional<Span> line_count{};             ///< the number of LINE_COUNT, if it is that of the last line
   std::map<std::optional<long>, int> frames{};  ///< line of the last UFRAME[n]=...; empty: of any n
   int first_jump = 0;                           ///< line of the first jump to a label; 0: none
+  int last_call = 0;                            ///< line of the last statement of `tp_calls`; 0: none
 };
 
 /// Reads the lines of `text` without the statements. Throws `InputError` for a list of positions that is not

@@ -14,27 +14,38 @@ namespace {
 using Words = std::span<const std::string_view>;
 
 /// Begins of statements, in upper case without blanks.
-constexpr auto motionless =
-    std::to_array<std::string_view>({"DO[",          "DI[",         "RO[",
-                                     "RI[",          "AO[",         "AI[",
-                                     "GO[",          "GI[",         "SO[",
-                                     "SI[",          "UO[",         "UI[",
-                                     "WO[",          "WI[",         "WSO[",
-                                     "WSI[",         "R[",          "SR[",
-                                     "AR[",          "F[",          "M[",
-                                     "VR[",          "PL[",         "$",
-                                     "TIMER[",       "TIMER_",      "OVERRIDE=",
-                                     "WAIT",         "MESSAGE[",    "UALM[",
-                                     "PAYLOAD[",     "JMPLBL[",     "RSR[",
-                                     "RUN",          "ABORT",       "PAUSE",
-                                     "ARCSTART",     "ARCEND",      "WELDSTART",
-                                     "WELDEND",      "COLDETECT",   "COLGUARD",
-                                     "LOCKPREG",     "UNLOCKPREG",  "SKIPCONDITION",
-                                     "MONITOR",      "JOINT_MAX_",  "LINEAR_MAX_SPEED",
-                                     "VISIONRUN_",   "VISIONGET_",  "CLEAR",
-                                     "ERROR_PROG=",  "RESUME_PROG", "MAINT_PROG=",
-                                     "RETURN_PATH_", "STRLEN",      "TPSHOW",
-                                     "LOCKVREG",     "UNLOCKVREG",  "TPUSRPRG"});
+constexpr auto motionless = std::to_array<std::string_view>({"DO[",          "DI[",
+                                                             "RO[",          "RI[",
+                                                             "AO[",          "AI[",
+                                                             "GO[",          "GI[",
+                                                             "SO[",          "SI[",
+                                                             "UO[",          "UI[",
+                                                             "WO[",          "WI[",
+                                                             "WSO[",         "WSI[",
+                                                             "R[",           "SR[",
+                                                             "AR[",          "F[",
+                                                             "M[",           "VR[",
+                                                             "PL[",          "$",
+                                                             "TIMER[",       "TIMER_",
+                                                             "OVERRIDE=",    "WAIT",
+                                                             "MESSAGE[",     "UALM[",
+                                                             "PAYLOAD[",     "JMPLBL[",
+                                                             "RSR[",         "ABORT",
+                                                             "PAUSE",        "ARCSTART",
+                                                             "ARCEND",       "WELDSTART",
+                                                             "WELDEND",      "COLDETECT",
+                                                             "COLGUARD",     "LOCKPREG",
+                                                             "UNLOCKPREG",   "SKIPCONDITION",
+                                                             "JOINT_MAX_",   "LINEAR_MAX_SPEED",
+                                                             "VISIONRUN_",   "VISIONGET_",
+                                                             "CLEAR",        "ERROR_PROG=",
+                                                             "RESUME_PROG",  "MAINT_PROG=",
+                                                             "RETURN_PATH_", "STRLEN",
+                                                             "TPSHOW",       "LOCKVREG",
+                                                             "UNLOCKVREG",   "TPUSRPRG"});
+/// Begins of the statements of `read_tp_assignment`.
+constexpr auto assigned =
+    std::to_array<std::string_view>({"UFRAME_NUM=", "UTOOL_NUM=", "UFRAME[", "UTOOL[", "PR["});
 /// Begins of statements that move the tool away from the programmed targets.
 constexpr auto displacing = std::to_array<std::string_view>(
     {"OFFSETCONDITION", "TOOL_OFFSETCONDITION", "VOFFSETCONDITION", "WEAVE", "TRACK", "SEARCH", "TOUCHOFFSET",
@@ -49,14 +60,16 @@ std::string_view shown(const TpReading& r, const RobotLine& line) {
   return part(r.robot.program.text, line.code);
 }
 
+/// Another program may move the robot and set frames, tools and registers.
 void read_call(TpReading& r, const RobotLine& line) {
   forget_tp_state(r);
   forget_tp_frames(r, line.line);
-  note_uncorrected(r.robot, line, fmt::format("'{}' may move the robot", shown(r, line)));
+  note_uncorrected(r.robot, line,
+                   fmt::format("'{}' may move the robot, or set its frames and tools", shown(r, line)));
 }
 
-/// Position behind the last comma of "IF R[1]=2,PR[1,2]=5" that is outside of brackets.
-std::size_t behind_condition(std::string_view statement) {
+/// The action of "IF R[1]=2,PR[1,2]=5": the text behind the last comma that is outside of brackets.
+std::string behind_condition(const std::string& statement) {
   std::size_t behind = 0;
   int depth = 0;
   for (std::size_t at = 0; at < statement.size(); ++at) {
@@ -65,36 +78,47 @@ std::size_t behind_condition(std::string_view statement) {
     if (c == ']' || c == ')') --depth;
     if (c == ',' && depth == 0) behind = at + 1;
   }
-  return behind;
+  return statement.substr(behind);
 }
 
-/// A statement that runs under a condition: a jump, a call or an assignment.
-void read_conditional(TpReading& r, const RobotLine& line, const std::string& statement) {
-  if (statement.find("CALL") != std::string::npos) return read_call(r, line);
+bool is_conditional(std::string_view statement) {
+  return (statement.starts_with("IF") && !statement.ends_with("THEN")) || statement.starts_with("SELECT") ||
+         statement.starts_with("=") || statement.starts_with("ELSE,");
+}
+
+bool is_call(std::string_view action) {
+  return !action.empty() && !begins_with_any(action, motionless) && !begins_with_any(action, assigned);
+}
+
+/// A jump, a call or an assignment under a condition, or at the end of a motion.
+void read_action(TpReading& r, const RobotLine& line, const std::string& action) {
+  if (is_call(action)) return read_call(r, line);
   ++r.robot.open_bodies;
-  read_tp_assignment(r, line, statement.substr(behind_condition(statement)));
+  read_tp_assignment(r, line, action);
   --r.robot.open_bodies;
 }
 
-/// Loops and conditions; false for another statement.
-bool read_flow(TpReading& r, const RobotLine& line, const std::string& statement) {
+/// Whether the statement begins or ends a loop or a block of a condition.
+bool is_body(std::string_view statement) {
+  return statement.starts_with("FOR") || (statement.starts_with("IF") && statement.ends_with("THEN")) ||
+         statement == "ENDIF" || statement == "ENDFOR" || statement == "ELSE" || statement == "END";
+}
+
+void read_body(TpReading& r, std::string_view statement) {
   int& open = r.robot.open_bodies;
-  const bool begins =
-      statement.starts_with("FOR") || (statement.starts_with("IF") && statement.ends_with("THEN"));
-  if (begins) return ++open, true;
-  if (statement == "ENDIF" || statement == "ENDFOR") return open = std::max(open - 1, 0), true;
-  if (statement == "ELSE" || statement == "END") return true;
-  const bool conditional = statement.starts_with("IF") || statement.starts_with("SELECT") ||
-                           statement.starts_with("=") || statement.starts_with("ELSE,");
-  if (conditional) read_conditional(r, line, statement);
-  return conditional;
+  if (statement == "ENDIF" || statement == "ENDFOR")
+    open = std::max(open - 1, 0);
+  else if (!statement.starts_with("E"))
+    ++open;
 }
 
 void read_statement(TpReading& r, const RobotLine& line) {
   const std::string_view text = r.robot.program.text;
   if (shown(r, line).starts_with("//")) return;  // is not executed
-  if (const TpMotion motion = tp_motion(text, line.code); motion.type != 0)
-    return read_tp_motion(r, line, motion);
+  if (const TpMotion motion = tp_motion(text, line.code); motion.type != 0) {
+    read_tp_motion(r, line, motion);
+    return read_action(r, line, motion.action);
+  }
   const std::string statement = tp_word(shown(r, line));
   if (begins_with_any(statement, displacing))
     refuse(r.robot.program.file, line, line.code.begin,
@@ -108,8 +132,9 @@ void read_statement(TpReading& r, const RobotLine& line) {
     forget_tp_state(r);
     return forget_tp_frames_at_label(r, line.line);
   }
-  if (read_tp_assignment(r, line, statement) || read_flow(r, line, statement)) return;
-  if (!begins_with_any(statement, motionless)) read_call(r, line);
+  if (is_body(statement)) return read_body(r, statement);
+  if (is_conditional(statement)) return read_action(r, line, behind_condition(statement));
+  if (!read_tp_assignment(r, line, statement) && is_call(statement)) read_call(r, line);
 }
 
 /// Positions whose uses are all targets of followed moves go with these moves: they are not other text.
@@ -133,6 +158,13 @@ void begin_section(TpReading& r, TpSection section) {
 }
 
 }  // namespace
+
+bool tp_calls(std::string_view text, Span code) {
+  if (const TpMotion motion = tp_motion(text, code); motion.type != 0) return is_call(motion.action);
+  const std::string statement = tp_word(part(text, code));
+  if (statement.empty() || statement.starts_with("LBL[") || is_body(statement)) return false;
+  return is_call(is_conditional(statement) ? behind_condition(statement) : statement);
+}
 
 void forget_tp_state(TpReading& r) {
   forget_position(r.robot);

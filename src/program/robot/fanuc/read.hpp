@@ -44,12 +44,17 @@ struct TpMotion {
   Span refused{};                     ///< the first word that moves the tool away from the target
   Span unknown{};                     ///< the first word that is not known
   bool wrist_joint = false;           ///< Wjnt: the orientation of the tool is not controlled
+  std::string action{};               ///< "CALLGRIP" of "TB .50sec,CALL GRIP"; empty: none
 };
 
 /// The motion of a statement.
 TpMotion tp_motion(std::string_view text, Span code);
 
-/// A motion statement.
+/// Whether a statement starts another program, by its name, by CALL, RUN or MONITOR, also under a condition
+/// and at the end of a motion. It may set frames, tools and registers.
+bool tp_calls(std::string_view text, Span code);
+
+/// A motion statement, without the action at its end.
 void read_tp_motion(TpReading& reading, const RobotLine& line, const TpMotion& motion);
 
 /// UFRAME_NUM, UTOOL_NUM, UFRAME[n], UTOOL[n], PR[n] and variables of the control with these values: an
@@ -65,7 +70,8 @@ std::string why_unknown_frame(const TpReading& reading, std::optional<long> numb
 /// A called program may set the frames that have numbers.
 void forget_tp_frames(TpReading& reading, int line);
 
-/// A jump to a label in `line` may come from behind or before the statements that set frames.
+/// A jump to a label in `line` may come from behind a call, or from behind or before the statements that set
+/// frames.
 void forget_tp_frames_at_label(TpReading& reading, int line);
 
 /// Another program or a jump may have run before the next statement: the position and the selected frames are

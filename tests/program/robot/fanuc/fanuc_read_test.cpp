@@ -185,7 +185,8 @@ TEST_CASE("a frame that the program may set at run time is not followed") {
   for (const char* statement :
        {"UFRAME[9]=PR[3] ;\n", "UFRAME[9]=UFRAME[1] ;\n", "IF R[1]=2,UFRAME[9]=PR[9] ;\n",
         "IF (R[1]=2) THEN ;\nUFRAME[9]=PR[9] ;\nENDIF ;\n", "CALL SETUF(9,1) ;\n",
-        "PR[9]=LPOS ;\nUFRAME[9]=PR[9] ;\n"}) {
+        "PR[9]=LPOS ;\nUFRAME[9]=PR[9] ;\n", "RUN SETUF ;\n", "IF R[1]=2,RUN SETUF ;\n",
+        "IF (DI[1]),SETUF ;\n", "MONITOR SETUF ;\n"}) {
     CAPTURE(statement);
     const Program program = read(set + statement);
     CHECK(!program.moves[0].fixed[0]);  // of another frame
@@ -198,12 +199,22 @@ TEST_CASE("a frame that the program may set at run time is not followed") {
     CHECK(program.moves[0].fixed[0]);
     CHECK(program.left_alone.back().why == "UFRAME[9] may be set at run time in line 13");
   }
+  for (const char* action : {"TB .50sec,CALL SETUF(9,1)", "TA 1sec,CALL SETUF", "DB 10mm,SETUF"}) {
+    CAPTURE(action);
+    const Program program = read(set + "L P[2] 9mm/sec FINE " + action + " ;\n");
+    CHECK(!program.moves[0].fixed[0]);
+    CHECK(program.moves[2].fixed[0]);
+    CHECK(program.left_alone.back().why == "UFRAME[9] may be set at run time in line 13");
+  }
+  CHECK(!read(set + "L P[2] 9mm/sec FINE TB .50sec,DO[1]=ON ;\n").moves[2].fixed[0]);
   CHECK(!read(set + "UFRAME[8]=PR[1] ;\n").moves[1].fixed[0]);
   CHECK(!read(set + "PR[1]=UFRAME[9] ;\nR[1]=1 ;\n").moves[1].fixed[0]);
   CHECK(!read("CALL GRIP ;\n" + set).moves[1].fixed[0]);
   // A jump may lead to the label from behind the assignment, or from before it.
   CHECK(!read(set + "LBL[1] ;\n", "JMP LBL[1] ;\n").moves[1].fixed[0]);
   CHECK(read(set + "LBL[1] ;\n", "UFRAME[9]=PR[2] ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(read(set + "LBL[1] ;\n", "CALL SETUF ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
+  CHECK(read(set + "LBL[1] ;\n", "J P[2] 9% FINE TB .50sec,CALL SETUF ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
   CHECK(read("LBL[1] ;\n", "IF R[1]=2,UFRAME[9]=PR[2] ;\nJMP LBL[1] ;\n").moves[1].fixed[0]);
   CHECK(read("LBL[1] ;\n", "UFRAME[R[2]]=PR[2] ;\nJMP LBL[1] ;\n").moves[0].fixed[0]);
   CHECK(read("IF R[1]=3,JMP LBL[1] ;\n" + set + "LBL[1] ;\n").moves[1].fixed[0]);
@@ -236,9 +247,10 @@ TEST_CASE(
   CHECK(frame_of("R[1]=2 ;\n") == "''");
   CHECK(frame_of("UFRAME_NUM=3 ;\n") == "'UF 3'");
   CHECK(frame_of("CALL GRIP ;\nUFRAME_NUM=3 ;\n") == "'UF 3'");
-  for (const char* before : {"CALL GRIP ;\n", "UFRAME_NUM=R[1] ;\n", "LBL[1] ;\n",
-                             "UFRAME_NUM=3 ;\nLBL[1] ;\n", "UFRAME_NUM=3 ;\nIF R[1]=2,UFRAME_NUM=1 ;\n",
-                             "UFRAME_NUM=3 ;\nGRIP ;\n", "UFRAME_NUM=3 ;\n$MNUFRAMENUM[1]=2 ;\n"}) {
+  for (const char* before :
+       {"CALL GRIP ;\n", "UFRAME_NUM=R[1] ;\n", "LBL[1] ;\n", "UFRAME_NUM=3 ;\nLBL[1] ;\n",
+        "UFRAME_NUM=3 ;\nIF R[1]=2,UFRAME_NUM=1 ;\n", "UFRAME_NUM=3 ;\nGRIP ;\n",
+        "UFRAME_NUM=3 ;\nRUN GRIP ;\n", "UFRAME_NUM=3 ;\n$MNUFRAMENUM[1]=2 ;\n"}) {
     CAPTURE(before);
     CHECK(frame_of(before) == unknown);
   }
@@ -251,16 +263,17 @@ TEST_CASE(
 TEST_CASE("the positions behind a label, a call and in a loop are not known") {
   const std::string line = "L P[2] 9mm/sec CNT50 ;\n";
   for (const char* before :
-       {"LBL[1] ;\n", "CALL GRIP ;\n", "CALL GRIP(1,R[2]) ;\n", "OPEN_HAND ;\n", "IF DI[1]=ON,CALL GRIP ;\n",
-        "SELECT R[1]=1,CALL A ;\n       =2,JMP LBL[1] ;\n"}) {
+       {"LBL[1] ;\n", "RUN GRIP ;\n", "CALL GRIP ;\n", "CALL GRIP(1,R[2]) ;\n", "OPEN_HAND ;\n",
+        "IF DI[1]=ON,CALL GRIP ;\n", "SELECT R[1]=1,CALL A ;\n       =2,JMP LBL[1] ;\n"}) {
     CAPTURE(before);
     const Program program = read_tp_statements("L P[1] 9mm/sec CNT50 ;\n" + std::string(before) + line);
     CHECK(!program.moves[1].known_start[0]);
     CHECK(all_known(program.moves[1].known_end));
   }
-  for (const char* before : {"WAIT   1.00(sec) ;\n", "DO[1]=ON ;\n", "R[1]=R[1]+1 ;\n", "JMP LBL[1] ;\n",
-                             "IF R[1]=1,JMP LBL[2] ;\n", "Arc Start[1] ;\n", "PAYLOAD[1] ;\n",
-                             "$MNUFRAMENUM[1]=1 ;\n", "--eg:a remark ;\n", ": DO[2]=ON;\n"}) {
+  for (const char* before :
+       {"WAIT   1.00(sec) ;\n", "DO[1]=ON ;\n", "R[1]=R[1]+1 ;\n", "JMP LBL[1] ;\n",
+        "IF R[1]=1,JMP LBL[2] ;\n", "IF R[1:CALLS]=1,R[2]=5 ;\n", "Arc Start[1] ;\n", "PAYLOAD[1] ;\n",
+        "$MNUFRAMENUM[1]=1 ;\n", "--eg:a remark ;\n", ": DO[2]=ON;\n"}) {
     CAPTURE(before);
     const Program program = read_tp_statements("L P[1] 9mm/sec CNT50 ;\n" + std::string(before) + line);
     CHECK(all_known(program.moves[1].known_start));
