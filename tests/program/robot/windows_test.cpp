@@ -39,8 +39,9 @@ std::string long_rapid() {
     text += fmt::format("MoveL {},cut,{},t\\WObj:=w; ! {}\n", target(0, 0), i % 60 == 0 ? "fine" : "z1", i);
     if (i % 50 == 0) text += fmt::format("MoveC {},{},cut,z1,t\\WObj:=w;\n", target(0.5, 0.5), target(1, 0));
     if (i % 900 == 0) text += "ENDPROC\nPROC next()\nTPWrite \"next\";\n";
+    if (i % 900 == 400) text += "report;\n";
   }
-  return text + "ENDPROC\nENDMODULE\n";
+  return text + "ENDPROC\nPROC report()\nTPWrite \"here\";\nENDPROC\nENDMODULE\n";
 }
 
 std::string long_gcode() {

@@ -74,32 +74,7 @@ bool has_expressions(RapidKind kind) {
   }
 }
 
-/// The routines of the module that `statement` names: it may call them.
-void add_called(std::string_view text, const RapidStatement& statement, const RapidRoutines& routines,
-                std::set<std::string>& called) {
-  visit_rapid_names(text, statement.span.begin, statement.span.end, [&](Span name) {
-    if (std::string word = rapid_word(part(text, name)); routines.contains(word))
-      called.insert(std::move(word));
-  });
-}
-
-/// Whether the instruction that `statement` begins with neither moves the robot nor sets how motions run, if
-/// the routines of the module do not.
-bool is_still(const RapidStatement& statement, const RapidRoutines& routines) {
-  if (statement.kind != RapidKind::call || routines.contains(statement.head)) return true;
-  return is_motionless_instruction(statement.head) && !is_mode_instruction(statement.head);
-}
-
 }  // namespace
-
-std::string name_of_routine(std::string_view text, const RapidStatement& statement) {
-  if (statement.head == "TRAP") return {};
-  RapidToken name = rapid_token_at(text, statement.rest - statement.head.size(), statement.span.end);
-  std::string word;  // the type of a function precedes the name
-  for (; name.kind == RapidTokenKind::name; name = rapid_token_at(text, name.span.end, statement.span.end))
-    word = rapid_word(part(text, name.span));
-  return word;
-}
 
 bool has_reference_parameters(std::string_view text, const RapidStatement& statement) {
   constexpr auto references = std::to_array<std::string_view>({"INOUT", "VAR", "PERS"});
@@ -124,34 +99,6 @@ std::vector<Span> names_changed_by(std::string_view text, const RapidStatement& 
   const bool is_short_if = statement.kind == RapidKind::short_if;
   changed.read(statement.rest, is_short_if ? statement_of_short_if(text, statement) : statement.span.end);
   return changed.names;
-}
-
-void StillRoutines::add(std::string_view text, const RapidStatement& statement) {
-  if (statement.kind == RapidKind::routine_begin) {
-    routine_ = name_of_routine(text, statement);
-    if (!routine_.empty()) routines_[routine_].still = true;
-    return;
-  }
-  if (statement.kind == RapidKind::routine_end) routine_.clear();
-  if (routine_.empty()) return;
-  RapidStatement last = statement;
-  while (last.kind == RapidKind::short_if)
-    last = rapid_statement_at(text, statement_of_short_if(text, last), last.behind);
-  if (!is_still(last, routines_)) routines_[routine_].still = false;
-  add_called(text, statement, routines_, called_[routine_]);
-}
-
-void StillRoutines::finish() {
-  for (bool changed = true; changed;) {
-    changed = false;
-    for (const auto& entry : called_) {
-      RapidRoutine& routine = routines_[entry.first];
-      const bool calls_motion =
-          std::ranges::any_of(entry.second, [&](const std::string& name) { return !routines_[name].still; });
-      changed = changed || (routine.still && calls_motion);
-      routine.still = routine.still && !calls_motion;
-    }
-  }
 }
 
 }  // namespace counterflex

@@ -78,11 +78,6 @@ void RapidModule::add_changes(std::string_view text, const RapidStatement& state
     for (auto& entry : data_) change(entry.second);
 }
 
-bool RapidModule::has_still_routine(std::string_view name) const {
-  const auto found = routines_.find(name);
-  return found != routines_.end() && found->second.still;
-}
-
 void RapidModule::add_uses(std::string_view text, const RapidStatement& statement, int line) {
   const Span declared = rapid_declaration(text, statement).name;
   RapidStatement last = statement;
@@ -108,7 +103,7 @@ void RapidModule::scan(std::string_view text) {
   each_statement([&](const RapidStatement& statement) { declare(text, statement); });
   int line = 1;
   std::size_t counted = 0;
-  StillRoutines still(routines_);
+  StillRoutines still;
   each_statement([&](const RapidStatement& statement) {
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(counted);
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(statement.span.begin);
@@ -117,7 +112,7 @@ void RapidModule::scan(std::string_view text) {
     add_uses(text, statement, line);
     still.add(text, statement);
   });
-  still.finish();
+  still_ = still.finish();
 }
 
 void RapidScan::add(std::string_view lines) {
@@ -125,6 +120,7 @@ void RapidScan::add(std::string_view lines) {
   while (!far_ && next_robot_line(lines, rapid_comment, line)) {
     for (std::size_t at = line.code.begin; at < line.code.end;) {
       const RapidStatement statement = rapid_statement_at(lines, at, line.code.end);
+      still_.add(lines, statement);
       const bool begins = statement.kind == RapidKind::routine_begin;
       const RapidDeclaration declared = rapid_declaration(lines, statement);
       const bool early = !in_routines_ && declared.type != target_type && declared.type != "ZONEDATA";

@@ -5,9 +5,10 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
-#include "program/robot/rapid/statement.hpp"
+#include "program/robot/rapid/routines.hpp"
 
 namespace counterflex {
 
@@ -24,12 +25,14 @@ struct RapidDatum {
 
 struct RapidRoutine {
   bool writes_arguments = false;  ///< it has parameters with INOUT, VAR or PERS
-  bool still = false;             ///< it neither moves the robot nor sets how motions run
 };
 using RapidRoutines = std::map<std::string, RapidRoutine, std::less<>>;  ///< by name in upper case
 
 class RapidModule {
  public:
+  /// `still`: the routines of a module that is not scanned.
+  explicit RapidModule(RapidNames still = {}) : still_(std::move(still)) {}
+
   /// Adds the declaration, the parameters or the routine that `statement` begins.
   void declare(std::string_view text, const RapidStatement& statement);
 
@@ -45,9 +48,8 @@ class RapidModule {
   /// Whether the module has a routine with that name in upper case.
   bool has_routine(std::string_view name) const { return routines_.contains(name); }
 
-  /// Whether the module has a routine with that name in upper case that does not move the robot. False for a
-  /// module that was not scanned.
-  bool has_still_routine(std::string_view name) const;
+  /// Whether the module has a routine with that name in upper case that does not move the robot.
+  bool has_still_routine(std::string_view name) const { return still_.contains(name); }
 
  private:
   void add_uses(std::string_view text, const RapidStatement& statement, int line);
@@ -59,6 +61,7 @@ class RapidModule {
   std::map<std::string, RapidDatum, std::less<>> data_;  ///< by name in upper case and number of the routine
   std::set<std::string, std::less<>> calls_;
   RapidRoutines routines_;
+  RapidNames still_;
   struct Section {
     std::size_t begin, routine;  ///< number of the routine from 1, 0: outside of routines
   };
@@ -66,14 +69,18 @@ class RapidModule {
   std::size_t routine_count_ = 0;
 };
 
-/// Whether the statements of a module may depend on lines far away from them, so that it is read as a whole.
-/// Lines are added in portions.
+/// Whether the statements of a module may depend on lines far away from them, so that it is read as a whole,
+/// and what the others need from far lines. Lines are added in portions.
 class RapidScan {
  public:
   void add(std::string_view lines);
   bool depends_on_far_lines() const { return far_; }
 
+  /// The routines that do not move the robot, of a module that is not read as a whole.
+  RapidNames still_routines() const { return still_.finish(); }
+
  private:
+  StillRoutines still_;
   bool far_ = false;
   bool in_routines_ = false;
 };

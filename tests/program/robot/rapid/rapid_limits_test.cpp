@@ -112,6 +112,33 @@ TEST_CASE("a routine of the module that does not move the robot keeps its positi
   CHECK(lowered.left_alone.back().why == "the target 'p2' is computed at run time in line 16");
 }
 
+TEST_CASE(
+    "a routine that does not move the robot keeps its position, also in a module that is read in windows") {
+  const std::string motion = "MoveJ " + target_at("1,2,3") + ",v100,fine,tool0;\n";
+  const std::string declarations =
+      "PROC coolant()\nIF on THEN\nSetDO do1,1;\nELSE\nlubricate;\nENDIF\nTPWrite \"on\";\nENDPROC\n"
+      "PROC lubricate()\nSet do2;\nENDPROC\nPROC retract()\n" +
+      motion +
+      "ENDPROC\nPROC mode()\nConfL\\Off;\nENDPROC\n"
+      "PROC away()\nlubricate;\nretract;\nENDPROC\n";
+  for (const auto& [call, is_known] : {std::pair{"coolant;\n", true},
+                                       {"lubricate;\n", true},
+                                       {"last;\n", true},
+                                       {"retract;\n", false},
+                                       {"away;\n", false},
+                                       {"mode;\n", false},
+                                       {"elsewhere;\n", false},
+                                       {"beyond;\n", false}}) {
+    CAPTURE(call);
+    std::string text =
+        module_of(declarations, motion + call + "MoveL " + target_at("4,5,6") + ",v100,z1,tool0;\n");
+    text.insert(text.rfind("ENDMODULE"), "PROC last()\ncoolant;\nENDPROC\n");
+    text += "MODULE other\nPROC beyond()\nENDPROC\nENDMODULE\n";
+    CHECK(!outline_of(text, *find_dialect(abb_name)).named_targets);
+    CHECK(all_known(read_rapid(text).moves.back().known_start) == is_known);
+  }
+}
+
 TEST_CASE("bodies, handlers and interrupts are not followed, calls make the position unknown") {
   const Program program = read_routine(
       "MoveJ <0,0,0>,v10,fine,tool0;\n"

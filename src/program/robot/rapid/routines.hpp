@@ -1,0 +1,55 @@
+#pragma once
+/// Which routines of an ABB RAPID module do not move the robot.
+#include <functional>
+#include <map>
+#include <set>
+#include <string>
+#include <string_view>
+
+#include "program/robot/rapid/statement.hpp"
+
+namespace counterflex {
+
+using RapidNames = std::set<std::string, std::less<>>;  ///< in upper case
+
+/// Finds the routines of a module that neither move the robot nor set how motions run, also in the routines
+/// of the module that they call. The statements of the module are added in order.
+class StillRoutines {
+ public:
+  void add(std::string_view text, const RapidStatement& statement);
+
+  /// The names of these routines.
+  RapidNames finish() const;
+
+ private:
+  struct Body {
+    bool moves = false;
+    RapidNames instructions{};  ///< the first names of its calls
+    RapidNames names{};         ///< all names in its statements: some may be routines that it calls
+  };
+
+  bool may_be_still(const Body& body) const;
+
+  std::map<std::string, Body, std::less<>> bodies_{};  ///< by name of the routine
+  Body* body_ = nullptr;                               ///< of the last statement; null: outside of routines
+  bool ended_ = false;                                 ///< behind ENDMODULE
+};
+
+/// The name of the routine that `statement` begins, in upper case. Empty for TRAP, which is not called.
+std::string name_of_routine(std::string_view text, const RapidStatement& statement);
+
+/// Calls `visit` with the names in [at, end) that may be data or routines: not members or options.
+template <typename Visit>
+void visit_rapid_names(std::string_view text, std::size_t at, std::size_t end, const Visit& visit) {
+  RapidToken before;
+  for (;;) {
+    const RapidToken token = rapid_token_at(text, at, end);
+    if (token.kind == RapidTokenKind::none) return;
+    const bool is_part = is_symbol(text, before, '.') || is_symbol(text, before, '\\');
+    if (token.kind == RapidTokenKind::name && !is_part) visit(token.span);
+    before = token;
+    at = token.span.end;
+  }
+}
+
+}  // namespace counterflex
