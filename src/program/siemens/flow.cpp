@@ -5,6 +5,7 @@
 #include <array>
 
 #include "program/expand/control_flow.hpp"
+#include "program/expand/definitions.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -54,10 +55,17 @@ constexpr std::array siemens_keywords{SiemensKeyword{"IF", "IF", FlowKind::begin
                                       SiemensKeyword{"REPEATB", "", FlowKind::not_followed},
                                       SiemensKeyword{"CASE", "", FlowKind::not_followed}};
 
+/// "N50" of "n050"; another name as it is.
+std::string label_of_number(std::string name) {
+  const bool is_number = name.size() > 1 && upper(name[0]) == 'N' &&
+                         name.find_first_not_of("0123456789", 1) == std::string::npos;
+  return is_number ? fmt::format("N{}", normal_name(std::string_view(name).substr(1))) : name;
+}
+
 void read_jump(std::string_view words, ControlLine& line) {
   line.kind = FlowKind::jump;
   const std::string direction = take_name(words);
-  line.target = direction == "GOTOS" ? "" : (direction + " ") + take_name(words);
+  line.target = direction == "GOTOS" ? "" : (direction + " ") + label_of_number(take_name(words));
 }
 
 void read_siemens_keyword(std::string_view rest, ControlLine& line) {
@@ -94,7 +102,7 @@ void add_siemens_flow(std::string_view text, const Block& block, bool jumps, Con
   if (skipped) rest = trimmed_text(rest.substr(std::min(rest.find_first_not_of("/0123456789"), rest.size())));
   if (rest.size() > 1 && upper(rest[0]) == 'N' && is_digit(rest[1])) {
     const std::size_t end = std::min(rest.find_first_not_of("0123456789", 1), rest.size());
-    if (jumps) flow.labels[upper_case(rest.substr(0, end))].push_back(line.begin);
+    if (jumps) flow.labels[label_of_number(std::string(rest.substr(0, end)))].push_back(line.begin);
     rest = trimmed_text(rest.substr(end));
   }
   std::string_view ahead = rest;

@@ -47,6 +47,9 @@ TEST_CASE("siemens: WHILE, REPEAT, LOOP, IF and jumps to labels are followed") {
   check_executed("R1=0\nA:\nR1=R1+1\nIF (R1<2) OR (R1<3 AND NOT R1==9) GOTOB A\nM30\n",
                  "R1=0\nR1=R1+1\nR1=R1+1\nR1=R1+1\nM30\n");
   check_executed("N10 gotof N50\nN20 X1\nN50 X2\nN60 X3\nM30\n", "N50 X2\nN60 X3\nM30\n");
+  check_executed("N10 GOTOF N50\nN20 X1\nN050 X2\nM30\n", "N050 X2\nM30\n");
+  check_executed("R1=0\nN05 R1=R1+1\nIF R1<2 GOTOB N5\nGOTO n0060\nX1\nn60 X2\nM30\n",
+                 "R1=0\nN05 R1=R1+1\nN05 R1=R1+1\nn60 X2\nM30\n");
   check_executed("GOTO B\nX1\nB: X2\nGOTOF B\nX3\nb: X4\nM30\n", "X2\nX4\nM30\n");
 }
 
