@@ -29,9 +29,10 @@ std::vector<PlaceStretch> merged(std::vector<PlaceStretch> stretches) {
 
 std::string label_name(std::string_view text) {
   if (text.starts_with('"')) return std::string(text.substr(0, text.find('"', 1)));
-  std::size_t end = 0;
-  while (end < text.size() && text[end] >= '0' && text[end] <= '9') ++end;
-  return end > 0 ? std::string(text.substr(0, end)) : "Q";
+  const std::size_t end = std::min(text.find_first_not_of("0123456789"), text.size());
+  const std::size_t begin = std::min(text.find_first_not_of('0'), end);
+  if (end == 0) return "Q";
+  return begin < end ? std::string(text.substr(begin, end - begin)) : "0";
 }
 
 int next_place(int place, const KlartextBlock& block) {

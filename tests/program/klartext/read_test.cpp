@@ -125,6 +125,16 @@ TEST_CASE("klartext: the report shows what is assumed of calls") {
         "assumed: called programs do not change the datum, the coordinates and the tool");
 }
 
+TEST_CASE("klartext: the numbers of labels may have leading zeros") {
+  for (const char* blocks : {"LBL 05\nL IX+1\nCALL LBL 5 REP 2\n", "LBL 5\nL IX+1\nCALL LBL 005 REP 2\n",
+                             "LBL 05\nL IX+1\nFN 9: IF +Q1 EQU +0 GOTO LBL 5\n"}) {
+    CAPTURE(blocks);
+    const Program program =
+        read(std::string("BEGIN PGM A MM\nL X+0 Y+0 Z+0 F100\n") + blocks + "END PGM A MM\n", "heidenhain");
+    CHECK_FALSE(program.moves.at(1).known_end[0]);
+  }
+}
+
 TEST_CASE("klartext: blocks that a label repeats, calls or skips are not corrected") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "LBL 1", "L X+5 F100", "L IX+5", "CALL LBL 1 REP 2",
