@@ -113,7 +113,7 @@ bool plunges(int cycle) {
 /// Q206 of the block, in mm/min.
 void read_plunging_feed(const KlartextBlock& block, KlartextReading& r) {
   const auto found = parameter_of("Q206", block, r);
-  const bool known = found && r.state.unit == LengthUnit::millimetres && !r.state.feed_per_turn;
+  const bool known = found && r.state.unit == LengthUnit::millimetres && r.state.feed_per_turn == false;
   r.state.plunging_feed_mm_min = known ? std::max(found->value_mm, 0.0) : 0;
 }
 

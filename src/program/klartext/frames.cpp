@@ -143,6 +143,10 @@ void select_preset(const KlartextBlock& block, KlartextReading& r) {
   const std::size_t q = definition.find("Q339=");
   const std::string preset = q == std::string::npos ? "?" : definition.substr(q + 5);
   end_frame(r);
+  // A preset ends the shift, the mirror image, the rotation and the scales, but not the tilt (cycle 19,
+  // PLANE).
+  r.state.unfollowed_shift.fill(false);
+  for (const int number : {7, 8, 10, 11, 26, trans_datum, trans_other}) r.state.displacements.erase(number);
   r.state.known.fill(false);
   r.state.run_begin = r.program.moves.size();
   if (r.state.preset.empty()) {

@@ -218,7 +218,7 @@ double klartext_length_mm(const KlartextReading& r, const KlartextWord& word) {
 /// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds per tooth are unknown.
 void read_klartext_feed(KlartextReading& r) {
   KlartextState& state = r.state;
-  const double tenths = state.unit == LengthUnit::inches && !state.feed_per_turn ? 0.1 : 1.0;
+  const double tenths = state.unit == LengthUnit::inches && state.feed_per_turn == false ? 0.1 : 1.0;
   for (const KlartextWord& word : r.words) {
     if (word.key == "F") state.feed_mm_min = word.literal ? word.value * mm_per_unit(r) * tenths : 0;
     if (word.key == "FAUTO") state.feed_mm_min = state.tool_feed_mm_min;
@@ -241,7 +241,8 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.moved_only_by_program[axis] = state.moved_by_machine[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;
-  move.feed_mm_min = state.feed_mm_min * (state.feed_per_turn ? state.spindle_rpm : 1.0);
+  if (state.feed_per_turn)
+    move.feed_mm_min = state.feed_mm_min * (*state.feed_per_turn ? state.spindle_rpm : 1.0);
   move.spindle_rpm = state.spindle_rpm;
   if (!empty(block.number)) {
     long number = 0;

@@ -40,8 +40,8 @@ struct KlartextState {
   std::array<std::size_t, 3> moved_by_machine{};
   Vector3 position_mm = Vector3::Zero();
   double feed_mm_min = 0;
-  double tool_feed_mm_min = 0;  ///< F of TOOL CALL, for FAUTO
-  bool feed_per_turn = false;   ///< M136: `feed_mm_min` is mm per turn
+  double tool_feed_mm_min = 0;                ///< F of TOOL CALL, for FAUTO
+  std::optional<bool> feed_per_turn = false;  ///< M136: `feed_mm_min` is mm per turn; empty: unknown
   double spindle_rpm = 0;
   long tool = 0;
   bool tool_along_z = true;

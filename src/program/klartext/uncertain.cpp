@@ -18,7 +18,8 @@ void mark_axes_unknown(const KlartextState& before, KlartextState& now) {
 void mark_tool_unknown(const KlartextState& before, KlartextState& now) {
   if (now.tool != before.tool) now.tool = 0;
   now.tool_along_z = now.tool_along_z && before.tool_along_z;
-  if (now.feed_mm_min != before.feed_mm_min || now.feed_per_turn != before.feed_per_turn) now.feed_mm_min = 0;
+  if (now.feed_mm_min != before.feed_mm_min) now.feed_mm_min = 0;
+  if (now.feed_per_turn != before.feed_per_turn) now.feed_per_turn.reset();
   if (now.tool_feed_mm_min != before.tool_feed_mm_min) now.tool_feed_mm_min = 0;
   if (now.spindle_rpm != before.spindle_rpm) now.spindle_rpm = 0;
 }

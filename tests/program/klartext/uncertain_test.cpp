@@ -67,6 +67,47 @@ TEST_CASE("klartext: a tool, a feed and a speed that may not be set are unknown"
   CHECK(read_blocks("TOOL CALL 1 Z S1000\n/TOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0\n").moves.back().tool == 1);
 }
 
+TEST_CASE("klartext: after M136 or M137 that may not run the unit of F is unknown until one of them runs") {
+  for (const char* code : {"M136", "L X+5 M136"})
+    for (const std::string& doubtful : maybe(code)) {
+      CAPTURE(doubtful);
+      const std::string begin = "TOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0 F100\n" + doubtful + "\nL X+10 F0.2\n";
+      CHECK(read_blocks(begin).moves.back().feed_mm_min == 0);
+      CHECK(read_blocks(begin + "L X+20 F500\n").moves.back().feed_mm_min == 0);
+      CHECK(read_blocks(begin + "M136\nL X+20 F0.5\n").moves.back().feed_mm_min == doctest::Approx(500));
+      CHECK(read_blocks(begin + "M137\nL X+20 F50\n").moves.back().feed_mm_min == doctest::Approx(50));
+    }
+  for (const std::string& doubtful : maybe("M137")) {
+    CAPTURE(doubtful);
+    const std::string begin = "TOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0 F100\n";
+    CHECK(read_blocks(begin + doubtful + "\nL X+5 F200\n").moves.back().feed_mm_min == 200);
+    CHECK(read_blocks(begin + "M136\n" + doubtful + "\nL X+5 F200\n").moves.back().feed_mm_min == 0);
+  }
+}
+
+TEST_CASE("klartext: a preset ends the shift, the mirror image, the rotation and the scales before it") {
+  const auto is_known = [](const std::string& before) {
+    CAPTURE(before);
+    const Program program =
+        read_blocks(before + "\nCYCL DEF 247 Q339=+1\nL X+0 Y+0 Z+50 R0 FMAX\nL X+10 F100\n");
+    const Move& last = program.moves.back();
+    const ProgramFrame& frame = program.frames.at(last.frame);
+    return all_known(last.known_start) && !last.fixed[0] && frame.origin_mm.isZero(0) && frame.turn_rad == 0;
+  };
+  for (const char* before :
+       {"CYCL DEF 7.1 Y+Q5", "CYCL DEF 7.1 C+30", "CYCL DEF 8.1 Y", "CYCL DEF 10.1 ROT+Q1",
+        "CYCL DEF 11.1 SCL 0.99", "CYCL DEF 26.1 X1.01", "TRANS DATUM AXIS Y+500", "TRANS MIRROR AXIS X",
+        "CYCL DEF 247 Q339=+1", "CYCL DEF 7.1 Y+500\nCYCL DEF 10.1 ROT+30"}) {
+    CHECK(is_known(before));
+    for (const std::string& doubtful : maybe(before)) CHECK(is_known(doubtful));
+  }
+  CHECK(is_known("CYCL DEF 7.1 Y+500\n/CYCL DEF 7.1 Y+0"));
+  CHECK(is_known("CYCL DEF 7.1 Y+500\n/CYCL DEF 247 Q339=+2"));
+  for (const char* before : {"CYCL DEF 19.1 A+30 B+0 C+0", "PLANE SPATIAL SPA+30 SPB+0 SPC+0 STAY", "M128",
+                             "CYCL DEF 247 Q339=+2", "FN 17: SYSWRITE ID210 NR4 = +1"})
+    CHECK_FALSE(is_known(before));
+}
+
 TEST_CASE("klartext: a pole that may not be set is unknown until the next CC") {
   for (const std::string& doubtful : maybe("CC X+0 Y+75")) {
     CAPTURE(doubtful);
