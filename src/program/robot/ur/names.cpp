@@ -8,10 +8,6 @@
 namespace counterflex {
 namespace {
 
-bool is_function(std::string_view head) {
-  return head == "def" || head == "thread" || head == "sec";
-}
-
 /// Counts the names in `code` from `at` on, but not in strings.
 void count_names(std::string_view text, Span code, UrNames& names) {
   bool quoted = false;
@@ -37,8 +33,12 @@ void add_assignment(std::string_view text, const UrAssignment& assignment, bool 
 
 }  // namespace
 
+bool ur_begins_function(std::string_view head) {
+  return head == "def" || head == "thread" || head == "sec";
+}
+
 bool ur_opens_body(std::string_view head) {
-  return is_function(head) || head == "if" || head == "while" || head == "for" || head == "switch";
+  return ur_begins_function(head) || head == "if" || head == "while" || head == "for" || head == "switch";
 }
 
 std::optional<UrAssignment> ur_assignment(std::string_view text, Span code) {
@@ -66,7 +66,7 @@ UrNames ur_names(std::string_view text) {
     if (empty(line.code) || text[line.code.begin] == '$') continue;
     const Span head = ur_name_at(text, line.code.begin, line.code.end);
     const std::string_view word = part(text, head);
-    if (is_function(word)) {
+    if (ur_begins_function(word)) {
       const Span name = ur_name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
       names.functions.emplace(part(text, name));
       if (depth == 0) depth_of_program = word == "def" ? 1 : 0;

@@ -48,6 +48,9 @@ Span ur_resolved(std::string_view text, const UrNames& names, Span value);
 /// The number of `value` or of its constant; empty if it is computed.
 std::optional<double> ur_constant(std::string_view text, const UrNames& names, Span value);
 
+/// Whether `head` begins a function or a thread.
+bool ur_begins_function(std::string_view head);
+
 /// Whether a statement that begins with `head` opens a body that `end` closes.
 bool ur_opens_body(std::string_view head);
 

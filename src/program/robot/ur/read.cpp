@@ -68,7 +68,7 @@ void run_function(UrReading& r, const RobotLine& line, std::string_view name) {
   note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
 }
 
-/// A function of the program in an expression, or in "run thread()".
+/// A function of the program in an expression, in arguments or in "run thread()".
 void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
   const std::string_view text = r.robot.program.text;
   for (std::size_t at = value.begin; at < value.end;) {
@@ -109,9 +109,17 @@ void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
                        name));
   if (is_among(name, ur_other_motions))
     return add_unfollowed_move(r.robot, line, fmt::format("{} is not supported", name));
-  if (is_among(name, ur_motionless_calls) || std::ranges::any_of(ur_motionless_prefixes, has_prefix))
-    return run_functions_in(r, line, call.span);
+  if (is_among(name, ur_motionless_calls) || std::ranges::any_of(ur_motionless_prefixes, has_prefix)) return;
   run_function(r, line, name);
+}
+
+void refuse_empty_argument(const UrReading& r, const RobotLine& line, const UrCall& call) {
+  const Program& program = r.robot.program;
+  for (std::size_t i = 0; i < call.arguments.size(); ++i)
+    if (empty(call.arguments[i].value))
+      refuse(program.file, line, call.arguments[i].span.begin,
+             fmt::format("argument {} of {} is empty; write its value, or remove its comma", i + 1,
+                         part(program.text, call.name)));
 }
 
 /// Which of several functions is the program is not known.
@@ -172,11 +180,9 @@ void read_ur_statement(UrReading& r, const RobotLine& line) {
   if (head.empty())
     refuse(file, line, line.code.begin, "the statement is not URScript: it begins with no name");
   if (head == "end") return close_body(r, line);
-  if (reads_structure(r, line, head)) return;
-  if (const auto assignment = ur_assignment(text, line.code))
-    return run_functions_in(r, line, assignment->value);
+  if (!ur_begins_function(head)) run_functions_in(r, line, {name.end, line.code.end});
+  if (reads_structure(r, line, head) || ur_assignment(text, line.code)) return;
   if (head == "return" || head == "halt") {
-    run_functions_in(r, line, line.code);
     if (!in_body(r)) end_program(r, line);
     return;
   }
@@ -192,6 +198,7 @@ void read_ur_statement(UrReading& r, const RobotLine& line) {
     refuse(file, line, call->span.end,
            fmt::format("unexpected text behind the call of {}; write each statement into a line of its own",
                        head));
+  refuse_empty_argument(r, line, *call);
   read_call(r, line, *call);
 }
 

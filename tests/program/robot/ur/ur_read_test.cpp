@@ -189,6 +189,23 @@ TEST_CASE("joint positions, calls, loops and conditions leave the position unkno
   CHECK(unchanged(program) == program.text);
 }
 
+TEST_CASE("a function of the program in a condition or in an argument makes the position unknown") {
+  const std::string probe = "def probe():\n  movel(p[0.5,0,0,0,0,0])\n  return True\nend\n";
+  const auto is_known_behind = [&](const std::string& statements) {
+    CAPTURE(statements);
+    const Program program = read_ur_statements(probe + "movel(p[0,0,0,0,0,0])\n" + statements);
+    return all_known(program.moves.back().known_start);
+  };
+  const std::string line = "movel(p[0.1,0,0,0,0,0])\n";
+  CHECK(is_known_behind("if ready():\nsync()\nend\n" + line));
+  CHECK(is_known_behind("movel(p[0.1,0,0,0,0,0], v=speed)\n"));
+  CHECK(!is_known_behind("if probe():\nsync()\nend\n" + line));
+  CHECK(!is_known_behind("while not probe():\nsync()\nend\n" + line));
+  CHECK(!is_known_behind("movel(p[0.1,0,0,0,0,0], v=probe())\n"));
+  CHECK(!is_known_behind("sleep(probe())\n" + line));
+  CHECK(!is_known_behind("ok = probe()\n" + line));
+}
+
 TEST_CASE("another tool makes the position unknown, the same tool does not") {
   const Program program = read_ur_statements(
       "tool = p[0,0,0.1,0,0,0]\n"
@@ -213,6 +230,13 @@ TEST_CASE("what URScript shifts at run time, and text that is not a program, is 
   CHECK(refusal_of_ur("movel(p[0,0,0,0,0,0]) movel(P1)\n")
             .starts_with("job.script:2:22: error: unexpected text"));
   CHECK(refusal_of_ur("movel()\n").starts_with("job.script:2:1: error: movel has no target"));
+  CHECK(refusal_of_ur("movec(, p[0,0,0,0,0,0])\n") ==
+        "job.script:2:7: error: argument 1 of movec is empty; write its value, or remove its comma");
+  CHECK(refusal_of_ur("movel(p[0,0,0,0,0,0], a=1.0,, 0.1)\n")
+            .starts_with("job.script:2:29: error: argument 3"));
+  CHECK(refusal_of_ur("set_tcp(p[0,0,0,0,0,0],)\n").starts_with("job.script:2:24: error: argument 2"));
+  CHECK(refusal_of_ur("movel(p[0,0,0,0,0,0], v=)\n").find("argument 2 of movel is empty") !=
+        std::string::npos);
   CHECK(refusal_of_ur("if x: movel(P1)\nend\n").starts_with("job.script:2:1: error: the line of 'if'"));
   CHECK(refusal_of_ur("end\ndef other():\n").starts_with("job.script:3:1: error: this is a second function"));
   CHECK(refusal_of_ur("<<<<<<< HEAD\n").starts_with("job.script:2:1: error: '<<<<<<<' is a conflict marker"));
