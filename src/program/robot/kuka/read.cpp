@@ -144,6 +144,19 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.robot.program.left_alone.back().feeds = true;
 }
 
+/// Routines of the file that an expression, TRIGGER or INTERRUPT behind the first word of the line calls.
+void read_inner_calls(KrlReading& r, const RobotLine& line, std::size_t at) {
+  const std::string_view text = r.robot.program.text;
+  while (at < line.code.end) {
+    const Span name = name_at(text, at, line.code.end);
+    at = empty(name) ? at + 1 : name.end;
+    const std::size_t open = behind_blanks(text, name.end, line.code.end);
+    if (empty(name) || open >= line.code.end || text[open] != '(') continue;
+    const KrlRoutine* const routine = r.facts.find(krl_word(part(text, name)));
+    if (routine != nullptr && routine->acts) read_call(r, line, part(text, name));
+  }
+}
+
 void read_other(KrlReading& r, const RobotLine& line, Span head) {
   const std::string_view text = r.robot.program.text;
   if (const auto assignment = assignment_at(text, line.code.begin, line.code.end))
@@ -185,6 +198,7 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
   if (r.routine_ended || line.code.begin < r.behind_loop) return;
   const Span name = name_at(text, line.code.begin, line.code.end);
   const std::string head = krl_word(part(text, name));
+  if (!begins_routine(text, line)) read_inner_calls(r, line, name.end);
   if (is_one_of(head, motions)) {
     read_krl_motion(r, line, head, name.end);
     r.has_trigger = false;

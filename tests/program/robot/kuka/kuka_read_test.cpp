@@ -237,6 +237,8 @@ TEST_CASE("a frame that a condition, a routine or an expression gives is not kno
   CHECK(frame_behind("frames()\n", "DEF frames()\nBAS(#BASE,5)\nEND\n") == "$BASE of line 3");
   CHECK(frame_behind("first()\n", "DEF first()\nsecond()\nEND\nDEF second()\n$BASE=BASE_DATA[1]\nEND\n") ==
         "$BASE of line 3");
+  CHECK(frame_behind("x=frames()\n", "DEFFCT INT frames()\n$BASE=BASE_DATA[1]\nRETURN 1\nENDFCT\n") ==
+        "$BASE of line 3");
   CHECK(frame_behind("speed()\n", "DEF speed()\nBAS(#VEL_CP,0.5)\nEND\n") == "BASE_DATA[4]");
   CHECK(frame_behind("$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 2,Y 0,Z 0,A 0,B 0,C 0}\n", "") == "$BASE of line 3");
   CHECK(frame_behind("BASE_DATA[5]=BASE_DATA[6]\n$BASE=BASE_DATA[5]\n", "") == "$BASE of line 4");
@@ -290,6 +292,24 @@ TEST_CASE("a routine of the file without motions leaves the position, and one th
   const Program unknown = read("");
   REQUIRE(unknown.left_alone.size() == 1);
   CHECK_FALSE(unknown.left_alone[0].feeds);
+}
+
+TEST_CASE("a routine of the file in an expression, TRIGGER or INTERRUPT acts as in a call") {
+  const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  for (const char* statement :
+       {"x=part()\n", "IF part() THEN\nENDIF\n", "WAIT FOR NOT part()\n", "REPEAT\nUNTIL part()\n",
+        "TRIGGER WHEN DISTANCE=0 DELAY=0 DO part() PRIO=-1\n",
+        "INTERRUPT DECL 3 WHEN $IN[1]==TRUE DO part()\n"}) {
+    CAPTURE(statement);
+    const auto is_known = [&](const std::string& body) {
+      const Program program = read_krl("DEF job()\n" + line + statement + line + "END\nDEFFCT BOOL part()\n" +
+                                       body + "RETURN TRUE\nENDFCT\n");
+      return all_known(program.moves.at(1).known_start);
+    };
+    CHECK(is_known("DECL INT n\nn=1\n"));
+    CHECK(is_known("$OUT[7]=TRUE\n"));
+    CHECK_FALSE(is_known(line));
+  }
 }
 
 TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
