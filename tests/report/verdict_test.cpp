@@ -122,6 +122,13 @@ TEST_CASE("feed moves to positions that are variables have no known length") {
   CHECK(moves.length_mm == doctest::Approx(10));
 }
 
+TEST_CASE("a position at which a modal macro is called counts as a move of unknown length") {
+  Reading run("O1\nG21 G90 G54 G0 X0. Y0. Z5.\nG66 P9100 Z-5.\nX10.\nY#2\nG67\nG0 X0. Y0. Z5.\nM30\n");
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.count == 2);
+  CHECK(moves.unknown_length == 2);
+}
+
 TEST_CASE("a move that misses the tolerance at one place counts once, and as missed") {
   Reading run("G21 G90 G54 G0 X0 Y0 Z0\nG1 X10 F100\nX30\nX60\n");
   for (const double miss_mm : {0.001, 0.006, 0.007}) run.solve(0, 2, miss_mm);

@@ -326,7 +326,8 @@ void place_words(const Block& block, Reading& r, Move& move) {
       place_word(r, move, axis, *word, why.empty());
     all_plain = all_plain && word->literal;
   }
-  if (macro) place_unknown(r, move, 2), move.fixed[2] = true, move.makes_hole = r.dialect.sinumerik_words;
+  if (macro) place_unknown(r, move, 2), move.fixed[2] = true;
+  if ((r.state.displaced & modal_macro) != 0) move.makes_hole = true;
   if (!why.empty()) return note_uncorrected(block, r, why);
   if (!all_plain)
     return note_uncorrected(
