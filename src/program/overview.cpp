@@ -23,7 +23,7 @@ void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
   const Move* before = nullptr;
   for (const Move& move : moves) {
     if (before == nullptr || move.tool != before->tool || move.frame != before->frame) {
-      overview.frames_used[move.frame] = true;
+      if (overview.frame_lines[move.frame] == 0) overview.frame_lines[move.frame] = move.line;
       add_tool(overview.tools, move.tool);
     }
     before = &move;
@@ -58,7 +58,7 @@ void add_window(Overview& overview, const Program& window) {
   overview.dialect = window.dialect;
   overview.blocks = window.block_count;
   overview.frames = window.frames;
-  overview.frames_used.resize(window.frames.size());
+  overview.frame_lines.resize(window.frames.size());
   overview.remarks = window.remarks;
   overview.external_axes_move = window.external_axes_move;
   overview.external_axes = window.external_axes;

@@ -45,7 +45,7 @@ void check_same(const Overview& a, const Overview& b) {
   CHECK(a.lines == b.lines);
   CHECK(a.last_block_number == b.last_block_number);
   CHECK(a.frames == b.frames);
-  CHECK(a.frames_used == b.frames_used);
+  CHECK(a.frame_lines == b.frame_lines);
   CHECK(a.remarks.size() == b.remarks.size());
   CHECK(a.path_tolerances.size() == b.path_tolerances.size());
   CHECK(a.left_alone.count == b.left_alone.count);
@@ -77,7 +77,7 @@ TEST_CASE("an overview summarises the whole program") {
   CHECK(overview.rapids == 4);  // the path to a hole is a rapid
   CHECK(overview.last_block_number == 50);
   CHECK(overview.frames == std::vector<ProgramFrame>{{}, {.work_offset = "G54"}, {.work_offset = "G56"}});
-  CHECK(overview.frames_used == std::vector<bool>{false, true, true});
+  CHECK(overview.frame_lines == std::vector<int>{0, 4, 8});
   CHECK(overview.remarks.size() == program.remarks.size());
   REQUIRE(overview.path_tolerances.size() == 2);
   CHECK(overview.path_tolerances[1].line == 9);
@@ -100,7 +100,7 @@ TEST_CASE("the overview of a program without forces, cycles or text has none of 
   CHECK_FALSE(overview.first_force_line);
   CHECK_FALSE(overview.commented_force);
   CHECK_FALSE(overview.first_cycle_line);
-  CHECK(overview.frames_used == std::vector<bool>{true});
+  CHECK(overview.frame_lines == std::vector<int>{2});
   CHECK(overview_of(read("")).lines == 0);
 }
 

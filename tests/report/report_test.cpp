@@ -211,6 +211,15 @@ TEST_CASE("the report describes the work frame and the meaning of the offset in 
   CHECK(report().datum.find("(0.1000, 0.0000, -0.2000) mm in the machine frame") != std::string::npos);
 }
 
+TEST_CASE("an offset that the program changes has its first place, with a note") {
+  MadeUpRun run;
+  run.machine.work["G54"] = {};
+  run.path.frames = {{"G54", Pose{}}, {"G54", translation({0.1, 0, 0})}};
+  CHECK(predicted(run, {}).work ==
+        "G54 puts the program's origin at (0.0000, 0.0000, 0.0000) mm in the machine frame, and the program "
+        "changes it.");
+}
+
 TEST_CASE("the assumption is stated for every offset that the program uses") {
   MadeUpRun run;
   const auto report = [&] { return predicted(run, {}); };

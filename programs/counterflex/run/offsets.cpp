@@ -54,7 +54,7 @@ OffsetSearch::OffsetSearch(Run& run) : run_(run), first_(freedom_) {
   const Machine& machine = run.machine.machine;
   for (std::size_t i = 0; i < run.work.frames.size(); ++i) {
     const ProgramFrame& in_program = run.program.frames[i];
-    if (run.program.frames_used[i]) refuse_unknown_value(run, i);
+    if (run.program.frame_lines[i] > 0) refuse_unknown_value(run, i);
     Offset offset{offset_name(run.program, in_program), pose_of_offset(run.work.frames[i], in_program)};
     offset.is_set = is_set(in_program);
     if (const auto known = machine.work.find(offset.name); known != machine.work.end()) {

@@ -16,8 +16,8 @@ namespace {
 std::vector<ProofFacts::Offset> offsets_of(const Run& run) {
   const Machine& machine = run.machine.machine;
   std::vector<ProofFacts::Offset> offsets;
-  for (std::size_t i = 0; i < run.program.frames_used.size(); ++i) {
-    if (!run.program.frames_used[i]) continue;
+  for (std::size_t i = 0; i < run.program.frame_lines.size(); ++i) {
+    if (run.program.frame_lines[i] == 0) continue;
     const ProgramFrame& in_program = run.program.frames[i];
     const Pose X_MW = pose_of_offset(run.work.frames[i], in_program);
     ProofFacts::Offset offset{offset_name(run.program, in_program), X_MW.p / mm, to_rpy(X_MW.R) / deg, {}};

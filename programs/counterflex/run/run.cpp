@@ -61,12 +61,12 @@ void refuse_tool_axis(const Run& run) {
   const Vector3 at_home = tip(model.mechanism, model.home).R.col(2);
   for (std::size_t i = 0; i < run.program.frames.size(); ++i) {
     const auto& axis = run.program.frames[i].tool_axis;
-    if (!axis || !run.program.frames_used[i]) continue;
+    if (!axis || run.program.frame_lines[i] == 0) continue;
     const Vector3 stated = run.work.frames[i].X_MW.R * *axis;
     const double angle_deg = std::atan2(stated.cross(at_home).norm(), stated.dot(at_home)) / deg;
     if (angle_deg <= equal_deg) continue;
     throw InputError(
-        ErrorKind::machine_or_force, {run.program.file},
+        ErrorKind::machine_or_force, {run.program.file, run.program.frame_lines[i]},
         fmt::format(
             "TLAXIS/{:.6g},{:.6g},{:.6g} states the tool axis for points of three numbers, {:.2f} deg "
             "from the axis of the machine at home; at most {} deg is allowed: post each point with "

@@ -18,12 +18,13 @@ void append(SanityChecks& checks, SanityChecks more) {
 /// The frames used by moves of a program, each once.
 std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
   std::vector<WorkFrame> frames;
-  const std::vector<bool>& used = placed.program.frames_used;
-  for (std::size_t i = 0; i < used.size(); ++i) {
-    if (!used[i]) continue;
+  const std::vector<int>& lines = placed.program.frame_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i) {
+    if (lines[i] == 0) continue;
     const WorkFrame& frame = placed.work.frames[i];
-    const bool known = std::any_of(frames.begin(), frames.end(),
-                                   [&](const WorkFrame& other) { return other.name == frame.name; });
+    const bool known = std::any_of(frames.begin(), frames.end(), [&](const WorkFrame& other) {
+      return other.name == frame.name && other.X_MW.R == frame.X_MW.R && other.X_MW.p == frame.X_MW.p;
+    });
     if (!known) frames.push_back(frame);
   }
   return frames;
@@ -31,8 +32,9 @@ std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
 
 std::vector<std::string> selected_offsets(const Overview& program) {
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < program.frames_used.size(); ++i)
-    if (program.frames_used[i] && !program.frames[i].pose_mm) names.push_back(program.frames[i].work_offset);
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i)
+    if (program.frame_lines[i] > 0 && !program.frames[i].pose_mm)
+      names.push_back(program.frames[i].work_offset);
   return names;
 }
 

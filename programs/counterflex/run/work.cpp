@@ -42,11 +42,11 @@ Vector3 deviation_at(const Model& model, const Vector3& p_MT, const std::string&
 /// Warns of several offsets in use without poses: they cannot all be the machine frame.
 std::string no_table_warning(const Overview& program) {
   std::vector<std::string> in_use;
-  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
     const std::string& offset = program.frames[i].work_offset;
     const std::string name = offset.empty() ? "none at first" : offset;
     const bool listed = std::find(in_use.begin(), in_use.end(), name) != in_use.end();
-    if (program.frames_used[i] && !listed) in_use.push_back(name);
+    if (program.frame_lines[i] > 0 && !listed) in_use.push_back(name);
   }
   if (in_use.size() < 2) return "";
   return fmt::format(
@@ -58,7 +58,7 @@ std::string no_table_warning(const Overview& program) {
 }
 
 std::string start_warning(const Overview& program) {
-  if (program.frames_used.empty() || !program.frames_used[0]) return "";
+  if (program.frame_lines.empty() || program.frame_lines[0] == 0) return "";
   if (is_robot_dialect(program.dialect))
     return "the program selects no base: its targets are taken in the machine frame";
   return "the program does not select a work offset at first; G54, the default of controls, is assumed";
@@ -131,8 +131,8 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
   if (machine.temperature) cold = prepare(without_temperature(machine));
   const Model& touching = cold ? *cold : model;
   std::map<std::string, WorkFrame> offsets;  // solved once for all frames of an offset
-  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
-    if (!program.frames_used[i]) continue;
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
+    if (program.frame_lines[i] == 0) continue;
     if (is_placed_by_program(program, program.frames[i])) continue;
     const std::string& selected = program.frames[i].work_offset;
     auto offset = offsets.find(selected);
@@ -150,8 +150,8 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
   for (const std::string& text : given)
     if (const WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = work.place.X_MW;
   if (table.empty()) return place;
-  for (std::size_t i = 0; i < program.frames_used.size(); ++i) {
-    if (!program.frames_used[i]) continue;
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
+    if (program.frame_lines[i] == 0) continue;
     if (is_placed_by_program(program, program.frames[i])) continue;
     const std::string& selected = program.frames[i].work_offset;
     const std::string name = selected.empty() ? power_on_offset : selected;

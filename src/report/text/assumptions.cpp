@@ -41,13 +41,20 @@ std::vector<const WorkFrame*> named_frames(const std::vector<WorkFrame>& all) {
   return frames;
 }
 
+// Whether another frame of the same offset has another pose: the program shifts, turns or sets it.
+bool changes(const std::vector<WorkFrame>& all, const WorkFrame& frame) {
+  return std::any_of(all.begin(), all.end(), [&](const WorkFrame& other) {
+    return other.name == frame.name && difference(other.X_MW, frame.X_MW).norm() > 1e-9;
+  });
+}
+
 }  // namespace
 
 std::string work_in_words(const Machine& machine, const std::vector<WorkFrame>& frames) {
   std::string text;
   for (const WorkFrame* frame : named_frames(frames))
-    text += fmt::format("{}{} puts the program's origin at {}.", text.empty() ? "" : " ", frame->name,
-                        place(frame->X_MW));
+    text += fmt::format("{}{} puts the program's origin at {}{}.", text.empty() ? "" : " ", frame->name,
+                        place(frame->X_MW), changes(frames, *frame) ? ", and the program changes it" : "");
   if (!text.empty()) return text;
   if (machine.work_is_machine_frame) return "Program coordinates are machine coordinates, as stated.";
   const std::string reason =

@@ -70,22 +70,52 @@ std::string three(const std::array<const char*, 3>& letters, const Vector3& valu
   return text;
 }
 
-void add_work(const Run& run, std::vector<std::string>& lines) {
-  const auto& frames = run.work.frames;
-  if (run.machine.machine.work.empty()) {
-    lines.push_back("WORK OFFSETS NOT GIVEN, MACHINE FRAME TAKEN");
-    return;
+/// A work offset at the first move in it.
+struct PlacedOffset {
+  std::string name;
+  Pose X_MW;
+  int line = 0;
+  int changed_in = 0;  ///< line of the first move in another pose of this name; 0: it stays
+};
+
+/// The offsets in use in the order of the program, each name once.
+std::vector<PlacedOffset> placed_offsets(const Run& run) {
+  std::vector<PlacedOffset> all, named;
+  for (std::size_t i = 0; i < run.program.frame_lines.size(); ++i) {
+    const WorkFrame& frame = run.work.frames[i];
+    if (run.program.frame_lines[i] > 0 && !frame.name.empty())
+      all.push_back({frame.name, pose_of_offset(frame, run.program.frames[i]), run.program.frame_lines[i]});
   }
-  std::vector<std::string> named;
-  for (const WorkFrame& frame : frames) {
-    if (frame.name.empty() || std::find(named.begin(), named.end(), frame.name) != named.end()) continue;
-    named.push_back(frame.name);
-    lines.push_back(
-        fmt::format("WORK {} AT {} MM", plain_name(frame.name), three({"X", "Y", "Z"}, frame.X_MW.p / mm)));
-    const Vector3 rpy_deg = to_rpy(frame.X_MW.R) / deg;
+  std::ranges::stable_sort(all, {}, &PlacedOffset::line);
+  for (PlacedOffset& offset : all) {
+    const auto first = std::ranges::find(named, offset.name, &PlacedOffset::name);
+    if (first == named.end())
+      named.push_back(std::move(offset));
+    else if (first->changed_in == 0 && difference(first->X_MW, offset.X_MW).norm() > 1e-9)
+      first->changed_in = offset.line;
+  }
+  return named;
+}
+
+/// Whether a move is in an offset whose pose neither the machine file nor the program gives.
+bool takes_machine_frame(const Run& run) {
+  if (!run.machine.machine.work.empty()) return false;
+  const std::vector<int>& lines = run.program.frame_lines;
+  for (std::size_t i = 0; i < lines.size(); ++i)
+    if (lines[i] > 0 && run.work.frames[i].name.empty()) return true;
+  return false;
+}
+
+void add_work(const Run& run, std::vector<std::string>& lines) {
+  if (takes_machine_frame(run)) lines.push_back("WORK OFFSETS NOT GIVEN, MACHINE FRAME TAKEN");
+  for (const PlacedOffset& offset : placed_offsets(run)) {
+    const std::string name = plain_name(offset.name);
+    lines.push_back(fmt::format("WORK {} AT {} MM", name, three({"X", "Y", "Z"}, offset.X_MW.p / mm)));
+    const Vector3 rpy_deg = to_rpy(offset.X_MW.R) / deg;
     if (rpy_deg.norm() > 1e-9)
-      lines.push_back(
-          fmt::format("WORK {} {} DEG", plain_name(frame.name), three({"ROLL ", "PITCH ", "YAW "}, rpy_deg)));
+      lines.push_back(fmt::format("WORK {} {} DEG", name, three({"ROLL ", "PITCH ", "YAW "}, rpy_deg)));
+    if (offset.changed_in > 0)
+      lines.push_back(fmt::format("WORK {} CHANGES IN LINE {}", name, offset.changed_in));
   }
 }
 
