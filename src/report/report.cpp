@@ -9,6 +9,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/report/run_tally.hpp"
+#include "report/tally/causes.hpp"
 #include "report/text/assumptions.hpp"
 #include "report/text/control.hpp"
 #include "report/text/tool_words.hpp"
@@ -65,13 +66,12 @@ std::optional<Largest> known(const Largest& largest) {
   return largest.line > 0 || largest.mm > 0 ? std::optional(largest) : std::nullopt;
 }
 
-Sources sources(const Measures& measures, bool weights) {
-  Sources result{measures.geometry.statistics(), measures.load.statistics(), std::nullopt,
-                 measures.superposition.statistics()};
-  if (weights) result.gravity = measures.gravity.statistics();
-  if (const auto preloads = measures.preloads.statistics(); preloads.max_mm > 1e-9)
-    result.preloads = preloads;
-  if (const auto fixture = measures.fixture.statistics(); fixture.max_mm > 0) result.fixture = fixture;
+Sources sources(const Measures& measures, const Machine& machine) {
+  Sources result{.superposition = measures.superposition.statistics()};
+  for (const Cause& cause : all_causes) result.*cause.statistics = (measures.*cause.tally).statistics();
+  if (!machine.fixture) result.fixture.reset();
+  if (!weighs(machine)) result.gravity.reset();
+  if (!(result.preloads->max_mm > 1e-9)) result.preloads.reset();
   return result;
 }
 
@@ -143,7 +143,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before);
-  if (context.facts.attribution && report.before) report.sources = sources(measures, weighs(context.machine));
+  if (context.facts.attribution && report.before) report.sources = sources(measures, context.machine);
   report.at_worst = measures.at_worst;
   if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
   report.common_shift = common_shift(context, measures);

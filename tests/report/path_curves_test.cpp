@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "made_up_run.hpp"
+#include "report/tally/causes.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -148,6 +149,37 @@ TEST_CASE("gravity has a curve only if weights act") {
     PathCurves curves(true, weighs);
     curves.add(step(0, 0.5), 0);
     CHECK(std::isnan(value(curves.stretches()[0].largest, Quantity::gravity)) != weighs);
+  }
+}
+
+TEST_CASE("the curves of all causes and of the discrepancy add up to the deviation before") {
+  PathCurves curves(true, true, true);
+  Waypoint w = step(0, 0.5);
+  w.causes = Causes{};
+  w.causes->geometry.head<3>() = Vector3(0.1, 0, 0.01) * mm;
+  w.causes->load.head<3>() = Vector3(0.2, 0.03, 0) * mm;
+  w.causes->fixture.head<3>() = Vector3(-0.07, 0, 0.02) * mm;
+  w.causes->gravity.head<3>() = Vector3(0, 0, -0.04) * mm;
+  w.causes->superposition.head<3>() = Vector3(0.33, 0.03, 0.005) * mm;  // the rest is of preloads
+  curves.add(w, 0);
+  const auto& values = curves.stretches()[0].largest;
+  for (int axis = 0; axis < 3; ++axis) {
+    CAPTURE(axis);
+    const auto component = [&](Quantity x) {
+      return value(values, static_cast<Quantity>(static_cast<int>(x) + axis));
+    };
+    double sum = component(Quantity::discrepancy_x);
+    for (const Cause& cause : all_causes) sum += component(cause.curve);
+    CHECK(sum == doctest::Approx(component(Quantity::before_x)));
+  }
+  CHECK(value(values, Quantity::fixture_x) == doctest::Approx(-0.07));
+}
+
+TEST_CASE("the fixture has a curve only if the machine has one, also where the part does not deflect") {
+  for (const bool has_fixture : {false, true}) {
+    PathCurves curves(true, true, has_fixture);
+    curves.add(step(0, 0.5), 0);
+    CHECK(std::isnan(value(curves.stretches()[0].largest, Quantity::fixture)) != has_fixture);
   }
 }
 

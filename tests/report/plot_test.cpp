@@ -215,6 +215,17 @@ TEST_CASE("the plot has three components with their causes, and the residual bel
   CHECK(svg == to_svg(curves, report));
 }
 
+TEST_CASE("the legend of a plot with all causes has rows that stay on the page") {
+  RunReport report = report_of_made_up();
+  report.sources->fixture = report.sources->gravity = report.sources->preloads = report.sources->load;
+  const PathCurves curves = path_with(50, [](std::size_t i) { return 0.01 * static_cast<double>(i); });
+  const std::string svg = to_svg(curves, report);
+  for (const std::string words : {"fixture alone", "gravity alone", "preloads alone"})
+    CHECK(contains(svg, words));
+  CHECK(contains(svg, "<text x=\"116.0\" y=\"76.0\""));
+  CHECK(contains(svg, "<text x=\"116.0\" y=\"94.0\""));
+}
+
 TEST_CASE("the caption has the distance between all causes together and the superposition") {
   // Made-up causes add up to three quarters of the deviation.
   const PathCurves curves = path_with(10, [](std::size_t i) { return i == 7 ? 0.4 : 0.1; });

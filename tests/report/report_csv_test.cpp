@@ -73,6 +73,19 @@ TEST_CASE("rows of a CSV written in portions equal those written at once") {
   }
 }
 
+TEST_CASE("the columns of the fixture are the last ones, and only of machines that have one") {
+  std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 2, 3))};
+  waypoints[0].causes->fixture.head<3>() = Vector3(0.5, -0.25, 0) * mm;
+  std::size_t next_index = 0;
+  const CsvColumns columns{.fixture = true};
+  const std::string with = csv_header(columns) + csv_rows(waypoints, columns, next_index);
+  const auto lines = lines_of(with), without = lines_of(csv_of(waypoints, {}));
+  CHECK(lines[0] == without[0] +
+                        ",fixture_dx_mm,fixture_dy_mm,fixture_dz_mm,fixture_drx_deg,fixture_dry_deg,"
+                        "fixture_drz_deg");
+  CHECK(lines[1].ends_with(",0.5000000,-0.2500000,0.0000000,0.0000000,0.0000000,0.0000000"));
+}
+
 TEST_CASE("columns that were not computed keep their place and are empty") {
   std::vector<Waypoint> waypoints = {cut(0, 4, 1, Vector3(1, 2, 3)), cut(0, 4, 1, Vector3(1, 2, 3))};
   waypoints[1].status = Status::singular;

@@ -61,8 +61,8 @@ TEST_CASE("a compensation reports its counts, sizes, causes and the deviation wi
   CHECK(report.text_after->blocks == 8);
   CHECK(report.text_after->bytes == run.program.text.size() + 6);
   REQUIRE(report.sources);
-  CHECK(report.sources->geometry.max_mm == doctest::Approx(0.125));
-  CHECK(report.sources->load.max_mm == doctest::Approx(0.25));
+  CHECK(report.sources->geometry->max_mm == doctest::Approx(0.125));
+  CHECK(report.sources->load->max_mm == doctest::Approx(0.25));
   CHECK(report.sources->superposition.max_mm == doctest::Approx(0.375));
   REQUIRE(report.air);
   CHECK(report.air->mm == doctest::Approx(0.25));

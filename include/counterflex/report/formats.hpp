@@ -28,8 +28,10 @@ struct CsvColumns {
   /// geometry_, load_, gravity_, preloads_, superposition_; with `corrected` also air_.
   bool attribution = true;
   bool corrected = true;  ///< after_, correction_: not for a prediction
-  /// The last columns before_band_mm and after_band_mm, which are missing without it.
+  /// The columns before_band_mm and after_band_mm at the end, which are missing without it.
   bool bands = false;
+  /// The last columns, fixture_, which are missing without it.
+  bool fixture = false;
 };
 
 /// The names of the columns, in a line.

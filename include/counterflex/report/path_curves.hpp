@@ -40,6 +40,10 @@ enum class Quantity : std::uint8_t {
   load_y,
   load_z,
   load,
+  fixture_x,
+  fixture_y,
+  fixture_z,
+  fixture,
   gravity_x,
   gravity_y,
   gravity_z,
@@ -108,8 +112,8 @@ class PathCurves {
   static constexpr std::size_t most_stretches = 8192;
 
   /// `corrected`: whether there is a corrected program, so that after, correction and air mean something;
-  /// `weighs`: whether weights act, so that gravity does.
-  explicit PathCurves(bool corrected, bool weighs = false);
+  /// `weighs`: whether weights act, so that gravity does; `has_fixture`: whether the machine has one.
+  explicit PathCurves(bool corrected, bool weighs = false, bool has_fixture = false);
 
   /// The next waypoint; `operation` as the caller counts them.
   void add(const Waypoint& w, std::int32_t operation);
@@ -131,6 +135,7 @@ class PathCurves {
   struct Known {
     bool corrected = false;
     bool weights = false;
+    bool fixture = false;
   };
 
  private:

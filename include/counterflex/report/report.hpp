@@ -152,11 +152,11 @@ SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes);
 
 /// Where each part of the deviation before comes from.
 struct Sources {
-  DeviationStatistics geometry, load;
-  std::optional<DeviationStatistics> gravity;  ///< none for a machine without masses
+  std::optional<DeviationStatistics> geometry, load;
+  std::optional<DeviationStatistics> fixture;   ///< none for a machine without a fixture
+  std::optional<DeviationStatistics> gravity;   ///< none for a machine without masses
+  std::optional<DeviationStatistics> preloads;  ///< none where preloads move nothing
   DeviationStatistics superposition;
-  std::optional<DeviationStatistics> preloads{};  ///< none where preloads move nothing
-  std::optional<DeviationStatistics> fixture{};   ///< none where the part does not deflect
 };
 
 /// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no

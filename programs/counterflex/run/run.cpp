@@ -350,10 +350,18 @@ bool wants_loads(const Run& run) {
   return run.facts.attribution || !run.machine.machine.load_limits.empty();
 }
 
+CsvColumns columns_of(const Options& options, const Run& run) {
+  return {.attribution = run.facts.attribution,
+          .corrected = options.command != Command::predict,
+          .bands = !run.uncertainties.empty(),
+          .fixture = run.machine.machine.fixture.has_value()};
+}
+
 RunTally tally_for(const Options& options, const Run& run) {
   std::optional<PathCurves> curves;
   if (options.report || options.plot)
-    curves.emplace(options.command != Command::predict, weighs(run.machine.machine));
+    curves.emplace(options.command != Command::predict, weighs(run.machine.machine),
+                   run.machine.machine.fixture.has_value());
   return RunTally(run.facts.min_block_ms, std::move(curves), tool_sizes(run));
 }
 

@@ -69,6 +69,9 @@ bool wants_loads(const Run& run);
 /// Sets how the corrected program is written: its header, and the numbers of its pieces.
 void prepare_writing(const Options& options, Run& run);
 
+/// The columns of the run's CSV report.
+CsvColumns columns_of(const Options& options, const Run& run);
+
 /// The tally for waypoints and windows of the run. It has the curves of the path if a page is written.
 RunTally tally_for(const Options& options, const Run& run);
 

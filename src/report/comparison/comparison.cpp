@@ -6,6 +6,7 @@
 #include <cmath>
 
 #include "report/comparison/comparison_parts.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 
@@ -40,12 +41,8 @@ constexpr NumberRow statistics_rows[] = {
     {"/max_rotation_deg", "", "largest rotation, in deg", "deg"},
 };
 
-/// The rows after them, in their order.
+/// The rows behind the causes, in their order.
 constexpr NumberRow other_rows[] = {
-    {"/summary/sources/geometry/max_mm", sources_heading, "geometry: errors of assembly alone"},
-    {"/summary/sources/load/max_mm", sources_heading, "load: cutting forces alone"},
-    {"/summary/sources/gravity/max_mm", sources_heading, "gravity: weights alone"},
-    {"/summary/sources/preloads/max_mm", sources_heading, "preloads alone"},
     {"/summary/sources/superposition/max_mm", sources_heading, "superposition: their sum"},
     {"/summary/sensitivity/force_plus_30/max_mm", other_force_heading, "force 30 % higher"},
     {"/summary/sensitivity/force_minus_30/max_mm", other_force_heading, "force 30 % lower"},
@@ -113,6 +110,8 @@ std::vector<ComparedNumber> compared_numbers(const TwoReports& reports) {
     add(std::string("/summary/before") + row.key, before_heading, row);
   for (const NumberRow& row : statistics_rows)
     add(std::string("/summary/after") + row.key, after_heading, row);
+  for (const Cause& cause : all_causes)
+    add(fmt::format("/summary/sources/{}/max_mm", cause.name), sources_heading, {"", "", cause.words});
   for (const NumberRow& row : other_rows) add(row.key, row.heading, row);
   return numbers;
 }

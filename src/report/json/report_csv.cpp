@@ -13,8 +13,15 @@ namespace {
 
 constexpr int length_digits = 7, angle_digits = 7, path_digits = 6, wrench_digits = 6;
 constexpr std::array deviation_names = {"dx_mm", "dy_mm", "dz_mm", "drx_deg", "dry_deg", "drz_deg"};
-constexpr std::array prefixes = {"before_",   "geometry_",      "load_",  "gravity_",
-                                 "preloads_", "superposition_", "after_", "air_"};
+
+/// Columns are not moved: the fixture's are behind all others, and only in files of machines that have one.
+bool is_in_all_files(const Cause& cause) {
+  return cause.curve != Quantity::fixture_x;
+}
+
+void add_names(std::string& row, std::string_view deviation) {
+  for (const char* name : deviation_names) row.append(",").append(deviation).append("_").append(name);
+}
 
 void add(std::string& row, double value, int digits) {
   row += ',';
@@ -57,10 +64,8 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
   for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
   add_deviation(text, w.before, solved);
-  add_deviation(text, causes.geometry, attributed);
-  add_deviation(text, causes.load, attributed);
-  add_deviation(text, causes.gravity, attributed);
-  add_deviation(text, preloads_of(causes), attributed);
+  for (const Cause& cause : all_causes)
+    if (is_in_all_files(cause)) add_deviation(text, cause.of(causes), attributed);
   add_deviation(text, causes.superposition, attributed);
   add_deviation(text, w.after, solved && columns.corrected);
   add_deviation(text, causes.air, attributed && columns.corrected);
@@ -71,6 +76,8 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   else
     text.append(3, ',');
   if (columns.bands) add_bands(text, w, columns.corrected);
+  for (const Cause& cause : all_causes)
+    if (columns.fixture && !is_in_all_files(cause)) add_deviation(text, cause.of(causes), attributed);
   text += '\n';
 }
 
@@ -78,12 +85,17 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
 
 std::string csv_header(const CsvColumns& columns) {
   std::string row = "index,line,cutting,s_mm,x_mm,y_mm,z_mm,fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm";
-  for (const char* prefix : prefixes)
-    for (const char* name : deviation_names) row.append(",").append(prefix).append(name);
+  add_names(row, "before");
+  for (const Cause& cause : all_causes)
+    if (is_in_all_files(cause)) add_names(row, cause.name);
+  for (const char* deviation : {"superposition", "after", "air"}) add_names(row, deviation);
   for (const char* name : {"x_mm", "y_mm", "z_mm", "rx_deg", "ry_deg", "rz_deg"})
     row.append(",correction_").append(name);
-  return row + ",status,iterations,rx_deg,ry_deg,rz_deg" +
-         (columns.bands ? ",before_band_mm,after_band_mm\n" : "\n");
+  row += ",status,iterations,rx_deg,ry_deg,rz_deg";
+  if (columns.bands) row += ",before_band_mm,after_band_mm";
+  for (const Cause& cause : all_causes)
+    if (columns.fixture && !is_in_all_files(cause)) add_names(row, cause.name);
+  return row + "\n";
 }
 
 std::string csv_rows(std::span<const Waypoint> waypoints, const CsvColumns& columns,

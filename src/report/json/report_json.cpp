@@ -8,6 +8,7 @@
 #include "report/json/summary_json.hpp"
 #include "report/json/uncertainty_json.hpp"
 #include "report/names.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 
@@ -170,29 +171,29 @@ Json operations_json(const std::vector<OperationReport>& operations) {
   return list;
 }
 
-Json parts_json(const std::optional<DeviationParts>& parts, bool weights, bool preloads) {
+Json parts_json(const std::optional<DeviationParts>& parts, const std::optional<Sources>& sources) {
   if (!parts) return nullptr;
-  Json json = {{"geometry_mm", number(parts->geometry_mm, digits)},
-               {"load_mm", number(parts->load_mm, digits)},
-               {"gravity_mm", weights ? number(parts->gravity_mm, digits) : Json(nullptr)},
-               {"preloads_mm", preloads ? number(parts->preloads_mm, digits) : Json(nullptr)},
+  Json json = {{"geometry_mm", nullptr},
+               {"load_mm", nullptr},
+               {"gravity_mm", nullptr},
+               {"preloads_mm", nullptr},
                {"discrepancy_mm", number(parts->discrepancy_mm, digits)}};
-  if (parts->fixture_mm > 0) json["fixture_mm"] = number(parts->fixture_mm, digits);
+  for (const Cause& cause : all_causes)
+    if (sources && (*sources).*cause.statistics)
+      json[fmt::format("{}_mm", cause.name)] = number((*parts).*cause.size_mm, digits);
   return json;
 }
 
 /// The place of a row is the place of the deviation that orders the rows.
 Json worst_row_json(const RunReport& report, const WorstRow& row) {
   const WorstPlace& place = report.after ? row.at_after : row.at_before;
-  const bool weights = report.sources && report.sources->gravity,
-             preloads = report.sources && report.sources->preloads;
   Json json = {{"line", row.line},
                {"before_mm", number(row.before_mm, digits)},
                {"after_mm", report.after ? number(row.after_mm, digits) : Json(nullptr)},
                {"s_mm", number(place.s_mm, digits)},
                {"place_mm", numbers(place.place_mm, digits)},
                {"force_N", number(place.force_N, 4)},
-               {"causes", parts_json(row.causes, weights, preloads)},
+               {"causes", parts_json(row.causes, report.sources)},
                {"text", row.text}};
   if (row.at_before.band_mm) json["before_band_mm"] = number(*row.at_before.band_mm, digits);
   if (report.after && row.at_after.band_mm) json["after_band_mm"] = number(*row.at_after.band_mm, digits);
@@ -280,7 +281,9 @@ Json failure_json(const RunReport& report) {
             {"what", failure->what}};
   if (report.command == Command::verify) json["corrected_line"] = failure->corrected_line;
   if (const auto& at = report.failure_place)
-    json["at"] = sources_at_json(*at, !at->gravity_mm.isZero(0), !at->preloads_mm.isZero(0));
+    json["at"] = sources_at_json(*at, [&](const Cause& cause) {
+      return cause.is_of_all_machines || !((*at).*cause.at_worst_mm).isZero(0);
+    });
   return json;
 }
 

@@ -45,17 +45,17 @@ Json largest_json(const std::optional<Largest>& largest) {
 
 }  // namespace
 
-/// A cause that acts nowhere is null; without a fixture there is no entry for it.
-Json sources_at_json(const SourcesAtWorst& at, bool weights, bool preloads) {
+Json sources_at_json(const SourcesAtWorst& at, const std::function<bool(const Cause&)>& shown) {
   Json json = {{"line", at.line},
                {"place_mm", numbers(at.place_mm, summary_digits)},
-               {"geometry_mm", numbers(at.geometry_mm, summary_digits)},
-               {"load_mm", numbers(at.load_mm, summary_digits)},
-               {"gravity_mm", weights ? numbers(at.gravity_mm, summary_digits) : Json(nullptr)},
-               {"preloads_mm", preloads ? numbers(at.preloads_mm, summary_digits) : Json(nullptr)},
+               {"geometry_mm", nullptr},
+               {"load_mm", nullptr},
+               {"gravity_mm", nullptr},
+               {"preloads_mm", nullptr},
                {"superposition_mm", numbers(at.superposition_mm, summary_digits)},
                {"before_mm", numbers(at.before_mm, summary_digits)}};
-  if (!at.fixture_mm.isZero(0)) json["fixture_mm"] = numbers(at.fixture_mm, summary_digits);
+  for (const Cause& cause : all_causes)
+    if (shown(cause)) json[fmt::format("{}_mm", cause.name)] = numbers(at.*cause.at_worst_mm, summary_digits);
   return json;
 }
 
@@ -63,19 +63,17 @@ namespace {
 
 Json at_worst_json(const Sources& sources, const std::optional<SourcesAtWorst>& worst) {
   if (!worst) return nullptr;
-  return sources_at_json(*worst, sources.gravity.has_value(), sources.preloads.has_value());
+  return sources_at_json(*worst, [&](const Cause& cause) { return (sources.*cause.statistics).has_value(); });
 }
 
 Json sources_json(const RunReport& report) {
   const std::optional<Sources>& sources = report.sources;
   if (!sources) return nullptr;
-  Json json = {{"geometry", statistics_json(sources->geometry)},
-               {"load", statistics_json(sources->load)},
-               {"gravity", optional_statistics(sources->gravity)},
-               {"superposition", statistics_json(sources->superposition)},
-               {"preloads", optional_statistics(sources->preloads)},
-               {"at_worst", at_worst_json(*sources, report.at_worst)}};
-  if (sources->fixture) json["fixture"] = statistics_json(*sources->fixture);
+  Json json = {{"geometry", nullptr}, {"load", nullptr},
+               {"gravity", nullptr},  {"superposition", statistics_json(sources->superposition)},
+               {"preloads", nullptr}, {"at_worst", at_worst_json(*sources, report.at_worst)}};
+  for (const Cause& cause : all_causes)
+    if (const auto& s = (*sources).*cause.statistics) json[std::string(cause.name)] = statistics_json(*s);
   return json;
 }
 

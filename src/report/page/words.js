@@ -111,49 +111,41 @@
     return {text: corrected(before, after, units) + more, kind: more ? 'warn' : 'good'};
   }
 
-  const partNames = {
-    geometry_mm: 'Errors of assembly',
-    load_mm: 'Cutting force',
-    fixture_mm: 'Deflection of the part',
-    gravity_mm: 'Weight of the parts',
-    preloads_mm: 'Preloads',
-    discrepancy_mm: 'Discrepancy',
-  };
-  const partName = (key) => partNames[key];
+  /** The causes of a deviation, in the order of all lists: `base` is their name in the report and the curves. */
+  const causes = [
+    {base: 'geometry', name: 'Errors of assembly', short: 'assembly', mostly: 'mostly errors of assembly'},
+    {base: 'load', name: 'Cutting force', short: 'force', mostly: 'mostly the cutting force bends the machine'},
+    {base: 'fixture', name: 'Deflection of the part', short: 'fixture', mostly: 'mostly the cutting force bends part and fixture'},
+    {base: 'gravity', name: 'Weight of the parts', short: 'weight', mostly: 'mostly the weight of its parts bends the machine'},
+    {base: 'preloads', name: 'Preloads', short: 'preloads', mostly: 'mostly preloaded joints and springs bend the machine'},
+  ];
 
-  const partSentences = {
-    geometry_mm: 'mostly errors of assembly',
-    load_mm: 'mostly the cutting force bends the machine',
-    fixture_mm: 'mostly the cutting force bends part and fixture',
-    gravity_mm: 'mostly the weight of its parts bends the machine',
-    preloads_mm: 'mostly preloaded joints and springs bend the machine',
-    discrepancy_mm: 'mostly the interaction of assembly errors and force',
-  };
+  /** The parts of a deviation: its causes, and what all together add to their sum. */
+  const allParts = [...causes,
+    {base: 'discrepancy', name: 'Discrepancy', short: 'both together', mostly: 'mostly the interaction of assembly errors and force'},
+  ].map((part) => ({...part, key: `${part.base}_mm`}));
 
-  const shortNames = {geometry_mm: 'assembly', load_mm: 'force', fixture_mm: 'fixture', gravity_mm: 'weight', preloads_mm: 'preloads', discrepancy_mm: 'both together'};
-
-  /** The known parts of a deviation: [{key, name, mm}], in the order above. */
-  function parts(causes) {
-    if (!causes) return [];
-    const present = Object.keys(partNames).filter((key) => known(causes[key]));
-    return present.map((key) => ({key, name: partNames[key], mm: causes[key]}));
+  /** The known parts of a deviation: [{key, name, short, mostly, mm}], in the order above. */
+  function parts(sizes) {
+    if (!sizes) return [];
+    return allParts.filter(({key}) => known(sizes[key])).map((part) => ({...part, mm: sizes[part.key]}));
   }
 
   /** The relevant parts, the largest first: only one if it is more than twice the next. */
-  function leading(causes) {
-    const sorted = parts(causes).filter((part) => part.mm > 0).sort((a, b) => b.mm - a.mm);
+  function leading(sizes) {
+    const sorted = parts(sizes).filter((part) => part.mm > 0).sort((a, b) => b.mm - a.mm);
     return sorted.length > 1 && sorted[0].mm <= 2 * sorted[1].mm ? sorted.slice(0, 2) : sorted.slice(0, 1);
   }
 
   /** The cause of the deviation in words; '' if unknown. */
-  function cause(causes) {
-    const [first, second] = leading(causes);
+  function cause(sizes) {
+    const [first, second] = leading(sizes);
     if (!first) return '';
-    return second ? `${first.name.toLowerCase()} and ${second.name.toLowerCase()}` : partSentences[first.key];
+    return second ? `${first.name.toLowerCase()} and ${second.name.toLowerCase()}` : first.mostly;
   }
 
   /** The same in a word or two. */
-  const causeInShort = (causes) => leading(causes).map(({key}) => shortNames[key]).join(', ');
+  const causeInShort = (sizes) => leading(sizes).map(({short}) => short).join(', ');
 
   /** "tolerance"; of two runs with their letters: "tolerance of A", "tolerance of A and B". */
   const tolerance = (letters) => (letters.length > 0 ? `tolerance of ${letters.join(' and ')}` : 'tolerance');
@@ -167,5 +159,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, partName, parts, cause, causeInShort, toolName, toolAndSize, tolerance, unitsOf};
+  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, causes, allParts, parts, cause, causeInShort, toolName, toolAndSize, tolerance, unitsOf};
 })();

@@ -5,6 +5,7 @@
 #include "counterflex/report/page.hpp"
 #include "report/plot/plot_page.hpp"
 #include "report/plot/svg.hpp"
+#include "report/tally/causes.hpp"
 
 namespace counterflex {
 
@@ -16,17 +17,20 @@ constexpr std::size_t title_width = 80;    // characters
 // Colours of Okabe and Ito, which colour-blind readers can distinguish. The superposition is a broad line
 // below the thin line of all causes together: both are visible where they coincide.
 constexpr PlotStyle superposition_style{"superposition", "#e69f00", 4.2, "5 6", Quantity::superposition_x};
-constexpr PlotStyle geometry_style{"geometry alone", "#0072b2", 1.8, "", Quantity::geometry_x};
-constexpr PlotStyle load_style{"load alone", "#d55e00", 1.8, "9 4", Quantity::load_x};
-constexpr PlotStyle gravity_style{"gravity alone", "#009e73", 1.8, "2 4", Quantity::gravity_x};
-constexpr PlotStyle preloads_style{"preloads alone", "#cc79a7", 1.8, "6 2 2 2", Quantity::preloads_x};
+constexpr std::array<PlotStyle, all_causes.size()> cause_styles{{
+    {"geometry alone", "#0072b2", 1.8, "", all_causes[0].curve},
+    {"load alone", "#d55e00", 1.8, "9 4", all_causes[1].curve},
+    {"fixture alone", "#56b4e9", 1.8, "12 3 2 3", all_causes[2].curve},
+    {"gravity alone", "#009e73", 1.8, "2 4", all_causes[3].curve},
+    {"preloads alone", "#cc79a7", 1.8, "6 2 2 2", all_causes[4].curve},
+}};
 constexpr PlotStyle together_style{"acting together", "#000000", 1.3, "", Quantity::before_x};
 
 std::vector<PlotStyle> styles_of(const RunReport& report) {
   if (!report.sources) return {together_style};
-  std::vector<PlotStyle> styles{geometry_style, load_style};
-  if (report.sources->gravity) styles.push_back(gravity_style);
-  if (report.sources->preloads) styles.push_back(preloads_style);
+  std::vector<PlotStyle> styles;
+  for (std::size_t i = 0; i < all_causes.size(); ++i)
+    if ((*report.sources).*all_causes[i].statistics) styles.push_back(cause_styles[i]);
   styles.insert(styles.end(), {superposition_style, together_style});
   return styles;
 }
@@ -75,14 +79,14 @@ std::string stroke_of(const PlotStyle& style) {
 
 std::string to_svg(const PathCurves& curves, const RunReport& report) {
   const PlotPage page = page_of(curves, report);
-  const PlotPart panels = plot_panels(page, 92);
+  const PlotPart legend = plot_legend(page, 76);
+  const PlotPart panels = plot_panels(page, legend.bottom + 16);
   const PlotPart caption = plot_caption(page, panels.bottom + 12);
   std::string svg = opening(page, caption.bottom + 14);
   svg += svg_text(plot_left, 28, Anchor::start, shortened(page_title(report), title_width),
                   " font-size=\"16\" font-weight=\"600\"");
   svg += svg_text(plot_left, 50, Anchor::start, "Deviation of the tool tip before, and its causes");
-  svg += plot_legend(page, 76);
-  return svg + panels.svg + caption.svg + "</g>\n</svg>\n";
+  return svg + legend.svg + panels.svg + caption.svg + "</g>\n</svg>\n";
 }
 
 }  // namespace counterflex

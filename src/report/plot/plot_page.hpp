@@ -56,8 +56,8 @@ struct PlotPart {
 /// the residual; with the axis of path lengths below.
 PlotPart plot_panels(const PlotPage& page, double top);
 
-/// The label of each curve beside a sample of its line.
-std::string plot_legend(const PlotPage& page, double base_line);
+/// The label of each curve beside a sample of its line, in as many rows as they need.
+PlotPart plot_legend(const PlotPage& page, double base_line);
 
 /// The caption of the plot.
 PlotPart plot_caption(const PlotPage& page, double top);

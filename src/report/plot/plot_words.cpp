@@ -78,18 +78,23 @@ PlotPart plot_caption(const PlotPage& page, double top) {
   return part;
 }
 
-std::string plot_legend(const PlotPage& page, double base_line) {
-  constexpr double sample = 30, gap = 8, item_gap = 22, character = 6.4;  // px
-  std::string svg;
+PlotPart plot_legend(const PlotPage& page, double base_line) {
+  constexpr double sample = 30, gap = 8, item_gap = 22, character = 6.4, row = 18;  // px
+  PlotPart part{"", base_line};
   double x = plot_left;
   for (const PlotStyle& style : page.styles) {
-    svg += fmt::format("<path fill=\"none\"{} d=\"M{:.1f} {:.1f}h{:.0f}\"/>\n", stroke_of(style), x,
-                       base_line - 4, sample);
-    svg += svg_text(x + sample + gap, base_line, Anchor::start, style.label);
     const auto letters = static_cast<double>(std::string_view(style.label).size());
-    x += sample + gap + character * letters + item_gap;
+    const double width = sample + gap + character * letters;
+    if (x > plot_left && x + width > plot_right) {
+      x = plot_left;
+      part.bottom += row;
+    }
+    part.svg += fmt::format("<path fill=\"none\"{} d=\"M{:.1f} {:.1f}h{:.0f}\"/>\n", stroke_of(style), x,
+                            part.bottom - 4, sample);
+    part.svg += svg_text(x + sample + gap, part.bottom, Anchor::start, style.label);
+    x += width + item_gap;
   }
-  return svg;
+  return part;
 }
 
 std::string plot_description(const PlotPage& page) {

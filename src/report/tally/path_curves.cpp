@@ -41,6 +41,10 @@ constexpr std::array<std::string_view, quantity_count> quantity_names = {"before
                                                                          "load_y_mm",
                                                                          "load_z_mm",
                                                                          "load_mm",
+                                                                         "fixture_x_mm",
+                                                                         "fixture_y_mm",
+                                                                         "fixture_z_mm",
+                                                                         "fixture_mm",
                                                                          "gravity_x_mm",
                                                                          "gravity_y_mm",
                                                                          "gravity_z_mm",
@@ -93,12 +97,17 @@ void set_deviation(Values& values, Quantity first, const Waypoint& w, const Vect
   at(values, first, 7) = static_cast<float>(deviation.tail<3>().norm() / deg);
 }
 
+/// Whether the machine has what a cause is of. Preloads have a curve where they move the tip.
+bool acts(const Cause& cause, const Causes& causes, PathCurves::Known known) {
+  if (cause.curve == Quantity::fixture_x) return known.fixture;
+  if (cause.curve == Quantity::gravity_x) return known.weights;
+  return cause.curve != Quantity::preloads_x || !cause.of(causes).isZero(0);
+}
+
 void set_causes(Values& values, const Waypoint& w, const Causes& causes, PathCurves::Known known) {
   if (w.place) {
-    set_position(values, Quantity::geometry_x, causes.geometry);
-    set_position(values, Quantity::load_x, causes.load);
-    if (known.weights) set_position(values, Quantity::gravity_x, causes.gravity);
-    if (!preloads_of(causes).isZero(0)) set_position(values, Quantity::preloads_x, preloads_of(causes));
+    for (const Cause& cause : all_causes)
+      if (acts(cause, causes, known)) set_position(values, cause.curve, cause.of(causes));
     set_position(values, Quantity::superposition_x, causes.superposition);
     set_position(values, Quantity::discrepancy_x, w.before - causes.superposition);
   }
@@ -192,7 +201,8 @@ void PathMarks::add(double s) {
   s_mm.push_back(s);
 }
 
-PathCurves::PathCurves(bool corrected, bool weighs) : known_{corrected, weighs} {}
+PathCurves::PathCurves(bool corrected, bool weighs, bool has_fixture)
+    : known_{corrected, weighs, has_fixture} {}
 
 void PathCurves::add(const Waypoint& w, std::int32_t operation) {
   if (w.status != Status::converged) return;

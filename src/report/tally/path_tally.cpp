@@ -58,12 +58,9 @@ void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<Source
 
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
   const auto size_mm = [](const Vector6& deviation) { return deviation.head<3>().norm() / mm; };
-  return {size_mm(causes.geometry),
-          size_mm(causes.load),
-          size_mm(causes.fixture),
-          size_mm(causes.gravity),
-          size_mm(w.before - causes.superposition),
-          size_mm(preloads_of(causes))};
+  DeviationParts parts{.discrepancy_mm = size_mm(w.before - causes.superposition)};
+  for (const Cause& cause : all_causes) parts.*cause.size_mm = size_mm(cause.of(causes));
+  return parts;
 }
 
 bool before_line(const WorstRow& row, int line) {
@@ -74,15 +71,12 @@ bool before_line(const WorstRow& row, int line) {
 
 SourcesAtWorst sources_at(const Waypoint& w, const Causes& causes) {
   const auto in_mm = [](const Vector6& deviation) { return Vector3(deviation.head<3>() / mm); };
-  return {w.line,
-          w.p_MT / mm,
-          in_mm(causes.geometry),
-          in_mm(causes.load),
-          in_mm(causes.fixture),
-          in_mm(causes.gravity),
-          in_mm(preloads_of(causes)),
-          in_mm(causes.superposition),
-          in_mm(w.before)};
+  SourcesAtWorst at{.line = w.line,
+                    .place_mm = w.p_MT / mm,
+                    .superposition_mm = in_mm(causes.superposition),
+                    .before_mm = in_mm(w.before)};
+  for (const Cause& cause : all_causes) at.*cause.at_worst_mm = in_mm(cause.of(causes));
+  return at;
 }
 
 // Nearly all lines are in order: the wanted one is the last one, or after it.
@@ -247,11 +241,7 @@ void PathTally::finish_end() {
 }
 
 void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double weight) {
-  m_.geometry.add(sample(w, causes.geometry, weight));
-  m_.load.add(sample(w, causes.load, weight));
-  m_.gravity.add(sample(w, causes.gravity, weight));
-  m_.fixture.add(sample(w, causes.fixture, weight));
-  m_.preloads.add(sample(w, preloads_of(causes), weight));
+  for (const Cause& cause : all_causes) (m_.*cause.tally).add(sample(w, cause.of(causes), weight));
   m_.superposition.add(sample(w, causes.superposition, weight));
   keep_at_worst(w, causes, m_.at_worst);
   m_.without_force.add(sample(w, causes.air, weight));

@@ -7,6 +7,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/names.hpp"
+#include "report/tally/causes.hpp"
 #include "report/text/force_text.hpp"
 #include "report/text/loads_text.hpp"
 #include "report/text/offsets_text.hpp"
@@ -155,12 +156,12 @@ std::string uncertainty_text(const RunReport& report, const Ink& ink) {
   return text;
 }
 
-std::string source_row(const char* label, const DeviationStatistics& s) {
+std::string source_row(std::string_view label, const DeviationStatistics& s) {
   return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(s.max_axis_mm.x()),
                      mm4(s.max_axis_mm.y()), mm4(s.max_axis_mm.z()), mm4(s.max_mm));
 }
 
-std::string source_row(const char* label, const Vector3& d_mm) {
+std::string source_row(std::string_view label, const Vector3& d_mm) {
   return fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", label, mm4(d_mm.x()), mm4(d_mm.y()), mm4(d_mm.z()),
                      mm4(d_mm.norm()));
 }
@@ -170,10 +171,8 @@ std::string at_worst_text(const RunReport& report, const char* together) {
   const Sources& sources = *report.sources;
   const SourcesAtWorst& at = *report.at_worst;
   std::string text = fmt::format("  where the deviation is largest, line {}:\n", at.line);
-  text += source_row("geometry", at.geometry_mm) + source_row("load", at.load_mm);
-  if (sources.fixture) text += source_row("fixture", at.fixture_mm);
-  if (sources.gravity) text += source_row("gravity", at.gravity_mm);
-  if (sources.preloads) text += source_row("preloads", at.preloads_mm);
+  for (const Cause& cause : all_causes)
+    if (sources.*cause.statistics) text += source_row(cause.name, at.*cause.at_worst_mm);
   return text + source_row("sum of these", at.superposition_mm) + source_row(together, at.before_mm);
 }
 
@@ -187,11 +186,8 @@ std::string sources_text(const RunReport& report, const Ink& ink) {
   std::string text =
       line_break() + ink.bold("Causes of the deviation") + ", in mm; largest values, each at its own place\n";
   text += fmt::format("  {:<34}{:>12}{:>12}{:>12}{:>12}\n", "", "x", "y", "z", "in space");
-  text += source_row("geometry: errors of assembly alone", sources.geometry);
-  text += source_row("load: cutting forces alone", sources.load);
-  if (sources.fixture) text += source_row("fixture: deflection of the part", *sources.fixture);
-  if (sources.gravity) text += source_row("gravity: weights alone", *sources.gravity);
-  if (sources.preloads) text += source_row("preloads alone", *sources.preloads);
+  for (const Cause& cause : all_causes)
+    if (const auto& s = sources.*cause.statistics) text += source_row(cause.words, *s);
   text += source_row("superposition: sums at each place", sources.superposition);
   return text + source_row(together, *report.before) + at_worst_text(report, together);
 }

@@ -7,6 +7,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "report/names.hpp"
+#include "report/tally/causes.hpp"
 #include "report/text/offsets_text.hpp"
 #include "report/text/report_text.hpp"
 #include "report/text/text_layout.hpp"
@@ -36,11 +37,12 @@ std::string headline(const RunReport& report, const Ink& ink) {
 }
 
 std::string causes_text(const SourcesAtWorst& at) {
-  std::string text = "assembly " + mm4(at.geometry_mm.norm());
-  if (!at.load_mm.isZero()) text += ", force " + mm4(at.load_mm.norm());
-  if (!at.fixture_mm.isZero()) text += ", fixture " + mm4(at.fixture_mm.norm());
-  if (!at.gravity_mm.isZero()) text += ", weight " + mm4(at.gravity_mm.norm());
-  if (!at.preloads_mm.isZero(1e-9)) text += ", preloads " + mm4(at.preloads_mm.norm());
+  std::string text;
+  for (const Cause& cause : all_causes) {
+    const Vector3& part_mm = at.*cause.at_worst_mm;
+    if (!text.empty() && part_mm.isZero(1e-9)) continue;
+    text += fmt::format("{}{} {}", text.empty() ? "" : ", ", cause.in_short, mm4(part_mm.norm()));
+  }
   return text;
 }
 

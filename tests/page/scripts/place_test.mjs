@@ -32,6 +32,15 @@ test('the deviation and its causes at a place add up, also between two known pla
   assert.deepEqual(plain([vectors.before.vector, causes[0].vector]), [[2, 0, 0], [0.75, 0, 0]]);
 });
 
+test('all causes are in the sum of a place, that of the fixture too', () => {
+  const run = run_of([5], [10], [3]), {quantities} = run.curves;
+  for (const [i, base] of ['geometry', 'fixture', 'gravity', 'preloads', 'discrepancy'].entries())
+    for (const axis of ['x', 'y', 'z']) quantities[`${base}_${axis}_mm`] = {largest: [axis === 'x' ? [1, 4, 0.5, 0.25, 1.25][i] : 0]};
+  const {vectors, causes} = place.ofStretch(run, 0);
+  assert.deepEqual(plain(causes.map(({key}) => key)), ['geometry_mm', 'load_mm', 'fixture_mm', 'gravity_mm', 'preloads_mm', 'discrepancy_mm']);
+  assert.equal(causes.reduce((sum, {vector}) => sum + vector[0], 0), vectors.before.vector[0]);
+});
+
 test('values beyond a rapid are not used', () => {
   assert.deepEqual(told(run_of([5, 6, 7], [1, NaN, 3], undefined, [1, 1, 1]), 1), [null, false, null, 0.001]);
   assert.deepEqual(told(run_of([6], [NaN]), 0), [null, false, null, 0.001]);

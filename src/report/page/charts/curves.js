@@ -156,12 +156,12 @@
       thinnedNote(context, group)]};
   }
 
+  const causeDashes = {fixture: [12, 3], gravity: [10, 3, 2, 3], preloads: [6, 2, 2, 2]};
+
   const sourceSeries = (part) => [
     {name: quantityName('before', part), label: 'all together', colour: '--ink', width: 2.5},
-    {name: quantityName('geometry', part), label: 'geometry', colour: '--geometry'},
-    {name: quantityName('load', part), label: 'load', colour: '--load'},
-    {name: quantityName('gravity', part), label: 'gravity', colour: '--gravity', dash: [10, 3, 2, 3]},
-    {name: quantityName('preloads', part), label: 'preloads', colour: '--preloads', dash: [6, 2, 2, 2]},
+    ...counterflex.words.causes.map(({base}) => (
+      {name: quantityName(base, part), label: base, colour: `--${base}`, dash: causeDashes[base]})),
     {name: quantityName('superposition', part), label: 'their sum', colour: '--sum', dash: [8, 4]},
     {name: quantityName('discrepancy', part), label: 'discrepancy', colour: '--discrepancy', dash: [2, 3]},
   ];
@@ -189,7 +189,7 @@
     return `All causes together differ from the sum of the parts by ${values} (discrepancy).`;
   }
 
-  /** Geometry, load, gravity, their sum and all together: as in Figs 7 and 8 of the paper. */
+  /** The causes, their sum and all together: as in Figs 7 and 8 of the paper. */
   function sources(context, group, points) {
     if (!has(context, 'superposition_mm')) return null;
     const state = {part: '', log: false, plots: []};

@@ -11,11 +11,9 @@
     return Number.isNaN(value) ? null : value;
   }
 
-  const causeKeys = ['geometry', 'load', 'gravity', 'preloads', 'discrepancy'];
-
   /** The causes at a stretch, [{key, name, vector}]; [] if they are unknown. */
   function causesAt(curves, i) {
-    const list = causeKeys.map((base) => ({key: `${base}_mm`, name: words.partName(`${base}_mm`), ...counterflex.vectors.at(curves, base, i)}));
+    const list = words.allParts.map(({base, key, name}) => ({key, name, ...counterflex.vectors.at(curves, base, i)}));
     return list.filter(({vector}) => vector);
   }
 

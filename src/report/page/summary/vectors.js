@@ -41,11 +41,8 @@
 
   /** The causes at a place of the report, [{key, name, vector}]. */
   function causesOf(place) {
-    const {partName} = counterflex.words;
-    const listed = ['geometry', 'load', 'fixture', 'gravity', 'preloads'].filter((base) => place[`${base}_mm`])
-        .map((base) => ({key: `${base}_mm`, name: partName(`${base}_mm`), vector: place[`${base}_mm`]}));
-    const rest = place.before_mm.map((v, k) => v - place.superposition_mm[k]);
-    return [...listed, {key: 'discrepancy_mm', name: partName('discrepancy_mm'), vector: rest}];
+    const vectors = {...place, discrepancy_mm: place.before_mm.map((v, k) => v - place.superposition_mm[k])};
+    return counterflex.words.allParts.filter(({key}) => vectors[key]).map(({key, name}) => ({key, name, vector: vectors[key]}));
   }
 
   /** Sizes of causes under the keys of a report's row. */
