@@ -7,9 +7,27 @@
 
 namespace counterflex {
 
+namespace {
+
+void add_value(AxisValues& range, const Travel& travel, double value, int line) {
+  constexpr double indistinct = 1e-9;  // m, rad
+  range.least = std::min(range.least, value);
+  range.largest = std::max(range.largest, value);
+  const double margin = std::min(value - travel.min, travel.max - value);
+  if (!(margin < range.margin - indistinct)) return;  // keeps the first of equal values
+  range.margin = margin;
+  range.line = line;
+}
+
+}  // namespace
+
 void TravelTally::add(const Mechanism& mechanism, const Eigen::VectorXd& rho, int line) {
-  ++places_;
-  const auto at = tightest_axis(mechanism, rho);
+  last_ = rho + full_turns(mechanism, rho, places_++ == 0 ? rho : last_);
+  const Eigen::VectorXd shown = shown_values(mechanism.shown, last_);
+  axes_.resize(mechanism.travel.size());
+  for (std::size_t i = 0; i < axes_.size(); ++i)
+    add_value(axes_[i], mechanism.travel[i], shown[static_cast<Eigen::Index>(i)], line);
+  const auto at = tightest_axis(mechanism, last_);
   if (!at) return;
   if (tightest_ && at->share >= share_ - 1e-9) return;  // keeps the first of equal values
   tightest_ = LeastMargin{at->actuator, at->value, at->margin, line};
@@ -36,8 +54,9 @@ SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
     return {"travel", SanityState::doubtful,
             fmt::format("line {}: {}", least->line, outside_travel_words(travel, least->value))};
   return {"travel", SanityState::ok,
-          fmt::format("least margin {} on {}: {} at line {}, travel {}", axis_value(travel, least->margin),
-                      travel.name, axis_value(travel, least->value), least->line, travel_range(travel))};
+          fmt::format("least margin {} on {}, rapids included: {} at line {}, travel {}",
+                      axis_value(travel, least->margin), travel.name, axis_value(travel, least->value),
+                      least->line, travel_range(travel))};
 }
 
 }  // namespace counterflex

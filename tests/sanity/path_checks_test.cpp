@@ -55,7 +55,26 @@ TEST_CASE("the least margin names axis, value, line and travel") {
   }
   const SanityCheck check = check_travel(model.mechanism, tally, {});
   CHECK(check.state == SanityState::ok);
-  CHECK(check.text == "least margin 1.0 mm on axis Z: 499.0 mm at line 4, travel -500 to 500 mm");
+  CHECK(check.text ==
+        "least margin 1.0 mm on axis Z, rapids included: 499.0 mm at line 4, travel -500 to 500 mm");
+  CHECK(tally.axes()[0].largest == doctest::Approx(0.499));
+  CHECK(tally.axes()[0].margin == doctest::Approx(1 * mm));
+  CHECK(tally.axes()[0].line == 4);
+  CHECK(tally.axes()[1].line == 3);
+}
+
+TEST_CASE("rotary axes count on over full turns") {
+  const Model model = elbow();
+  TravelTally tally;
+  int line = 1;
+  for (const double angle : {150.0, 190.0 - 360.0, 150.0}) {
+    Eigen::VectorXd rho = actuator_values(model.mechanism, model.home);
+    rho[1] = angle * deg;
+    tally.add(model.mechanism, rho, line++);
+  }
+  CHECK(tally.axes()[1].largest == doctest::Approx(190 * deg));
+  CHECK(tally.axes()[1].margin == doctest::Approx(-20 * deg));
+  CHECK(tally.axes()[1].line == 2);
 }
 
 TEST_CASE("a force that pushes along the feed nearly everywhere is doubtful") {

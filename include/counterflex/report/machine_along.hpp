@@ -6,6 +6,7 @@
 
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/report/kinematics.hpp"
+#include "counterflex/sanity/checks.hpp"
 #include "counterflex/statics/skeleton.hpp"
 
 namespace counterflex {
@@ -26,7 +27,8 @@ struct ConstantAxis {
 };
 
 struct MachineAlong {
-  std::vector<Travel> axes;  ///< of the shown values
+  std::vector<Travel> axes;          ///< of the shown values
+  std::vector<AxisValues> ranges{};  ///< of `axes` over the whole path, as the tally of a run has them
   std::vector<ConstantAxis> constant;
   std::vector<MachinePlace> places;        ///< in the order of the path
   std::optional<double> least_arm_margin;  ///< rad: a run is refused below it; none: no limit
@@ -40,7 +42,9 @@ MachineAlong machine_along(const Machine& machine, const Model& model, const std
 /// For a page. n: number of places; arrays as in `curves_json`, NaN where a place is not known:
 ///
 ///     {"s_mm": float64[n], "line": int32[n],
-///      "axes": [{"name", "unit": "mm" or "deg", "min", "max": null without a limit, "values": float32[n]}],
+///      "axes": [{"name", "unit": "mm" or "deg", "min", "max": null without a limit, "least", "largest",
+///                "least_margin": of the whole path, null without a limit, "margin_line",
+///                "values": float32[n]}],
 ///      "constant": [{"name", "unit", "value"}],
 ///      "margins": [{"what", "values": float32[n], deg}], "refused_below_deg": null without a limit or
 ///      margins,

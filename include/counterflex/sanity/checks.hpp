@@ -1,5 +1,6 @@
 #pragma once
 /// Checks of a machine and of a path.
+#include <cmath>
 #include <map>
 #include <optional>
 #include <string>
@@ -70,7 +71,15 @@ struct LeastMargin {
   int line = 0;
 };
 
-/// The least margin of the commanded targets.
+/// The values of one axis along a path, as the control shows them (m or rad).
+struct AxisValues {
+  double least = HUGE_VAL, largest = -HUGE_VAL;
+  double margin = HUGE_VAL;  ///< the least one to an end of its travel; infinite without a limit
+  int line = 0;              ///< where the margin is least
+};
+
+/// The values of all axes over the commanded targets of a path, rapids included, and the least margin.
+/// Rotary axes count on over full turns.
 class TravelTally {
  public:
   /// Actuator values at a place (m, rad), and the line of its move.
@@ -78,11 +87,14 @@ class TravelTally {
 
   /// None: no actuator has a limit, or nothing was added.
   const std::optional<LeastMargin>& least() const { return tightest_; }
+  const std::vector<AxisValues>& axes() const { return axes_; }  ///< empty: nothing was added
   std::size_t places() const { return places_; }
 
  private:
   std::optional<LeastMargin> tightest_;
-  double share_ = 0;  ///< of the travel, as `AxisPlace` has it
+  std::vector<AxisValues> axes_;
+  Eigen::VectorXd last_;  ///< actuator values, counted on
+  double share_ = 0;      ///< of the travel, as `AxisPlace` has it
   std::size_t places_ = 0;
 };
 

@@ -411,8 +411,11 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
     report.failure_place = solve_failed_line(run, report.failure->line);
   if (!run.uncertainties.empty()) add_uncertainty(options, run, report, places);
   std::string machine = "null";
-  if (files.with_page())
-    machine = machine_json(machine_along(on.machine, on.model, places, run.options.threads, &*run.starts));
+  if (files.with_page()) {
+    MachineAlong along = machine_along(on.machine, on.model, places, run.options.threads, &*run.starts);
+    along.ranges = tally.travel().axes();
+    machine = machine_json(along);
+  }
   run.starts.reset();  // the solvers are done; frees memory for the report
   report.sanity = run_sanity(run, report, tally);
   add_loads(report, loads, on.machine);

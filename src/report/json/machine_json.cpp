@@ -34,10 +34,15 @@ Json axes_json(const MachineAlong& along) {
   for (std::size_t i = 0; i < along.axes.size(); ++i) {
     const Travel& travel = along.axes[i];
     const JointUnit unit = unit_of(travel.kind);
+    const AxisValues range = i < along.ranges.size() ? along.ranges[i] : AxisValues{};
     list.push_back({{"name", travel.name},
                     {"unit", unit.name},
                     {"min", number(travel.min / unit.si, shown_digits)},
                     {"max", number(travel.max / unit.si, shown_digits)},
+                    {"least", number(range.least / unit.si, shown_digits)},
+                    {"largest", number(range.largest / unit.si, shown_digits)},
+                    {"least_margin", number(range.margin / unit.si, shown_digits)},
+                    {"margin_line", range.line},
                     {"values", column(along, [&](const MachinePlace& at) {
                        return at.place.shown[static_cast<Eigen::Index>(i)] / unit.si;
                      })}});

@@ -21,7 +21,10 @@ std::vector<ConstantAxis> constant_axes(const Machine& machine) {
 
 MachineAlong machine_along(const Machine& machine, const Model& model, const std::vector<LoadPlace>& places,
                            int threads, const StartTables* starts) {
-  MachineAlong along{model.mechanism.travel, constant_axes(machine), {}, {}};
+  MachineAlong along{.axes = model.mechanism.travel,
+                     .constant = constant_axes(machine),
+                     .places = {},
+                     .least_arm_margin = {}};
   const bool turns_tool =
       std::any_of(places.begin(), places.end(), [](const LoadPlace& place) { return bool(place.at.R_MT); });
   if (turns_tool) along.least_arm_margin = least_arm_margin;

@@ -51,8 +51,8 @@ test('an arm shows its distances from singular poses', () => visit('face', async
 test('an axis near its limit, and one outside its travel, are marked', async () => {
   const data = data_in('face');
   const [near, over] = data.runs[0].machine.axes;
-  Object.assign(near, {min: -1, max: 1000});
-  Object.assign(over, {min: 500, max: 1000});
+  Object.assign(near, {min: -1, max: 1000, least_margin: 1});
+  Object.assign(over, {min: 500, max: 1000, least_margin: -400});
   write_page('face', data, 'near_limits');
   await visit('near_limits', async (page) => {
     assert.match(await page.innerText('#axes tr.exceeded'), /outside its travel/);
@@ -63,7 +63,7 @@ test('an axis near its limit, and one outside its travel, are marked', async () 
 
 test('a machine without limits is drawn in its units', async () => {
   const data = data_in('face');
-  for (const axis of data.runs[0].machine.axes) Object.assign(axis, {min: null, max: null});
+  for (const axis of data.runs[0].machine.axes) Object.assign(axis, {min: null, max: null, least_margin: null});
   write_page('face', data, 'without_limits');
   await visit('without_limits', async (page) => {
     await drawn(page, 'axes');

@@ -13,14 +13,9 @@
   const isLimited = ({min, max}) => known(min) && known(max) && max > min;
   const inUnit = (value, unit) => (known(value) ? `${Number(value.toFixed(unit === 'mm' ? 1 : 2))} ${unit}` : '\u2013');
 
-  /** The least distance of an axis from a limit: {margin, share of the travel or NaN, index of the place}; null without a limit. */
-  function leastMargin({values, min, max}) {
-    let best = null;
-    values.forEach((value, index) => {
-      const margin = Math.min(known(min) ? value - min : Infinity, known(max) ? max - value : Infinity);
-      if (Number.isFinite(margin) && (!best || margin < best.margin)) best = {margin, index};
-    });
-    return best && {...best, share: isLimited({min, max}) ? best.margin / (max - min) : NaN};
+  /** The least distance of an axis from a limit, rapids included: {margin, line, share of the travel or NaN}; null without a limit. */
+  function leastMargin({least_margin: margin, margin_line: line, min, max}) {
+    return known(margin) ? {margin, line, share: isLimited({min, max}) ? margin / (max - min) : NaN} : null;
   }
 
   /** 'over': outside the travel; 'near': close to a limit; '' else. */
@@ -40,12 +35,6 @@
     dash: run.letter ? dashes[r] : i < colours.length ? null : dashes[1]});
 
   const labelOf = (run, text) => (run.letter ? `${text} ${run.letter}` : text);
-
-  /** The place with the values of `of`, as a link to its line. */
-  function linkOf(context, r, index) {
-    const {line, s_mm: s} = context.runs[r].machine;
-    return counterflex.lines.link(context, r, line[index], {s_mm: s[index]});
-  }
 
   /** All axes with two limits as shares of their travel, in %. */
   function shares(context, points) {
@@ -150,10 +139,9 @@
   }
 
   function rowOf(context, r, axis) {
-    const {values, unit} = axis, least = leastMargin(axis), sorted = Array.from(values).filter(known);
-    const state = stateOf(axis);
-    const row = [axis.name, inUnit(Math.min(...sorted), unit), inUnit(Math.max(...sorted), unit), travelText(axis),
-      least ? [inUnit(least.margin, unit), remarks[state], ', line ', linkOf(context, r, least.index)] : '\u2013'];
+    const {unit} = axis, least = leastMargin(axis), state = stateOf(axis);
+    const row = [axis.name, inUnit(axis.least, unit), inUnit(axis.largest, unit), travelText(axis),
+      least ? [inUnit(least.margin, unit), remarks[state], ', line ', counterflex.lines.link(context, r, least.line)] : '\u2013'];
     if (state) row.mark = state === 'over' ? 'exceeded' : 'near';
     return row;
   }
@@ -165,7 +153,7 @@
     const run = context.runs[r];
     if (!run.machine) return null;
     const {axes, constant, s_mm: s} = run.machine;
-    const caption = words.ofRun(run, `Axes as the control shows them, at ${s.length} places of the path`);
+    const caption = words.ofRun(run, `Axes as the control shows them, over all solved targets, rapids included; the curves are at ${words.counted(s.length, 'place')} of feed moves`);
     const columns = [{title: 'Axis'}, numberColumn('Least', 'minor'), numberColumn('Largest', 'minor'), numberColumn('Travel'), numberColumn('Least margin')];
     return [table(caption, columns, axes.map((axis) => rowOf(context, r, axis))), constant.map(constantText)];
   }
