@@ -29,16 +29,18 @@ struct Compensation {
   std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text; of windows that are not given out
   /// What the plan could not correct or split, besides the program's own list.
   std::vector<LeftAlone> left_alone;
-  Rewritten counts;                 ///< its text is moved to `text`
-  std::size_t corrected_moves = 0;  ///< each on its own
+  Rewritten counts;  ///< its text is moved to `text`
+  /// Each on its own. Of a verification those alone that have no waypoint: of the others the waypoints have
+  /// the correction.
+  std::size_t corrected_moves = 0;
   OtherMoves other_moves;
 };
 
 /// With `attribution` each waypoint's deviation is split into its causes.
 Compensation compensate(const Job& job, bool attribution);
 
-/// Judges `corrected` by its text alone: matches it with the original and solves it forward. Only failure and
-/// waypoints are set.
+/// Judges `corrected` by its text alone: matches it with the original and solves it forward. Only failure,
+/// waypoints and corrected moves are set.
 Compensation verify(const Job& job, const Program& corrected, bool attribution);
 
 /// The failure of words that are written too coarsely for the tolerance (ErrorKind::usage), if there are any.

@@ -22,6 +22,7 @@ struct MoveFacts {
   Vector3 common_shift = Vector3::Zero();  ///< of its work offset where no datum is stated (m)
   ToolSize tool;
   bool is_hole = false;  ///< or another place of a cycle: it has no length
+  bool is_own = true;    ///< corrected on its own, if at all: not held, nor with its contour
 };
 
 /// The deviations of one tool.
@@ -40,9 +41,10 @@ struct Measures {
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;
-  double corrected_mm = 0;           ///< of it, pieces that are within the tolerance everywhere
-  double accepted_mm = 0;            ///< of it, pieces that are within it or insignificant everywhere
-  std::size_t segments_changed = 0;  ///< moves whose target is not the original one
+  double corrected_mm = 0;  ///< of it, pieces that are within the tolerance everywhere
+  double accepted_mm = 0;   ///< of it, pieces that are within it or insignificant everywhere
+  std::size_t segments_changed =
+      0;  ///< moves, each corrected on its own, whose target is not the original one
 };
 
 /// The moves of a tool and an operation, wherever they are in the program.
@@ -98,7 +100,7 @@ class PathTally {
     MoveFacts facts{};
   };
 
-  void add_target(const Waypoint& w);
+  void add_target(const Waypoint& w, bool is_own);
   void add_cutting(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_operation(const Waypoint& w, std::int32_t operation);
   void close_piece(const Waypoint& w, std::int32_t operation);

@@ -41,6 +41,7 @@ std::optional<Failure> verify_all(Run& run, ProgramReader& corrected, RunTally& 
                                   ProofNotes* proof, Console& console) {
   Windows windows(run, console);
   WindowEvents events = windows.events(tally, files);
+  events.done = [&tally](const Job&, const Compensation& window) { tally.add_compensation(window); };
   if (proof != nullptr) proof->listen(events);
   return verify_windows(windows.jobs(), run.options.threads, corrected, run.facts.attribution, events);
 }

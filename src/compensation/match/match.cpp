@@ -1,5 +1,6 @@
 #include "compensation/match/match.hpp"
 
+#include <cmath>
 #include <utility>
 
 #include "compensation/match/match_moves.hpp"
@@ -53,7 +54,22 @@ struct MatchState {
   ZoneBefore zone{};
   bool skipped = false;  ///< a '/' block made the position unknown: feed moves behind it are held, not judged
   std::vector<DraftPiece> drafts{};
+  std::size_t changed_without_piece = 0;
 };
+
+/// Whether a move that is corrected on its own ends elsewhere, along an axis that both programs know.
+bool ends_elsewhere(const MatchedMoves& matched) {
+  constexpr double indistinct_mm = 1e-9;
+  const Move &original = matched.original, &found = matched.last();
+  if (original.handling != Handling::own || any_axis(original.fixed)) return false;
+  for (std::size_t axis = 0; axis < 3; ++axis) {
+    const auto k = static_cast<Eigen::Index>(axis);
+    if (original.known_end[axis] && found.known_end[axis] &&
+        std::abs(found.end_mm[k] - original.end_mm[k]) > indistinct_mm)
+      return true;
+  }
+  return false;
+}
 
 /// Matches move `m` of the window and adds its drafts. Returns the failure if it has no counterpart.
 std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t m, std::size_t others,
@@ -70,9 +86,11 @@ std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t 
   if (auto failure = shift_failure(job, m, matched, state.shifts)) return failure;
   if (auto failure = words_failure(job, matched)) return failure;
   if (auto failure = zone_failure(job, matched, state.zone)) return failure;
+  const std::size_t pieces_before = state.drafts.size();
   if (segment && !original.cycle) add_pieces(job, plan, matched, state.drafts);
   add_hole(job, matched, state.drafts);
   add_position(job, matched, state.skipped, state.drafts);
+  state.changed_without_piece += state.drafts.size() == pieces_before && ends_elsewhere(matched);
   state.last_line = matched.last().line;
   found.drop(matched.found.size());
   state.skipped = leaves_doubt(original, state.skipped);
@@ -100,6 +118,7 @@ Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, Corre
     result.failure = match_move(job, plan, m, others[m], finder, found, state);
   if (!result.failure) result.failure = state.zone.smaller;
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
+  result.changed_without_piece = state.changed_without_piece;
   if (!result.failure) result.pieces = refined(job, std::move(state.drafts));
   return result;
 }

@@ -14,6 +14,9 @@ namespace counterflex {
 struct Matching {
   std::vector<Piece> pieces;
   std::optional<Failure> failure;  ///< names the lines of both programs
+  /// Moves of the original that are corrected on their own, have no piece since they end at a place that is
+  /// not known in all axes or do not move, and end elsewhere in the corrected program.
+  std::size_t changed_without_piece = 0;
 };
 
 /// The pieces that the next moves of `found` command along the moves of a window; these are dropped from

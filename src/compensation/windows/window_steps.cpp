@@ -127,7 +127,9 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
           .prepare = plan_ends,
           .write =
               [&carry](const Job& job, WindowWork& work) {
-                take(job, match_window(job, work.plan, carry.lines, carry.found), work);
+                Matching matching = match_window(job, work.plan, carry.lines, carry.found);
+                work.result.corrected_moves = matching.changed_without_piece;
+                take(job, std::move(matching), work);
                 carry_path(job, carry.path, work);
               },
           .judge =

@@ -119,7 +119,7 @@ void WorstLines::keep_the_worst() {
 
 void PathTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
   if (w.status != Status::converged) return;
-  if (!w.between) add_target(w);
+  if (!w.between) add_target(w, facts.is_own);
   if (!w.cutting) finish_end();
   if (w.cutting || facts.is_hole) add_cutting(w, operation, facts, is_within);
   if (!w.cutting) finish_end();
@@ -143,11 +143,11 @@ std::vector<OperationTally> PathTally::operations() const {
   return std::move(whole.operations_);
 }
 
-void PathTally::add_target(const Waypoint& w) {
+void PathTally::add_target(const Waypoint& w, bool is_own) {
   const double length = w.correction.head<3>().norm();
   keep(m_.correction, length, w.line);
   const std::pair move{std::size_t{w.move}, w.line};
-  if (length < no_correction || last_changed_ == move) return;
+  if (!is_own || length < no_correction || last_changed_ == move) return;
   last_changed_ = move;
   ++m_.segments_changed;
 }

@@ -51,12 +51,13 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
       segment = w.segment;
       operation = PathTally::no_operation;
       facts = {};
+      const Move& move = window.program.moves[w.move];
       if (tool_cuts_at(window.program, w)) {
-        const Move& move = window.program.moves[w.move];
         facts = facts_of(window, w);
         operation = operation_names_.number_of(window.program, move);
         if (!unit_) unit_ = move.unit;
       }
+      facts.is_own = move.handling == Handling::own;
     }
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
