@@ -163,6 +163,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tools = used_tools(context.machine, context.program.tools);
   report.tools_assumed = tools_in_words(report.tools, context.program.tools);
   report.gravity = gravity_in_words(context.machine);
+  report.temperature_C = context.machine.temperature;
   report.thermal = thermal_in_words(context.machine);
   report.reversals = tally.reversals();
   for (const Corrected what : context.machine.already_corrects)

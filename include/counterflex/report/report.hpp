@@ -351,7 +351,8 @@ struct RunReport {
   std::vector<UsedTool> tools;  ///< where a tool of the program makes the machine another one
   std::string tools_assumed;    ///< their stiffness in words; empty without any
   std::string gravity;          ///< which weights were taken to act, in words; empty without any
-  std::string thermal;          ///< the shift by temperature in words; empty for a machine without a table
+  std::optional<double> temperature_C{};  ///< of the machine, where it is given
+  std::string thermal;  ///< the shift by temperature in words; empty for a machine without a table
   std::vector<std::string> already_corrected;  ///< by the control, as the machine file states
   std::vector<std::string> not_modelled;       ///< what else moves the tip of a real machine, one phrase each
   SanityChecks sanity{};                       ///< filled by the caller, who knows the machine's model

@@ -151,7 +151,7 @@
   const tolerance = (letters) => (letters.length > 0 ? `tolerance of ${letters.join(' and ')}` : 'tolerance');
 
   /** A text of the report, which is ASCII, with the spelling of units on pages. */
-  const unitsOf = (text) => text.replace(/\bN\/um\b/g, 'N/\u00b5m');
+  const unitsOf = (text) => text.replace(/\bum\b/g, '\u00b5m');
 
   /** "T3, 10.0 mm"; only the diameter of a tool without a number. */
   const toolAndSize = ({tool, diameter_mm: diameter}, units) =>

@@ -31,8 +31,7 @@ std::string file_name(const RunReport& report, const std::string& role) {
 
 std::string title(const RunReport& report, const Ink& ink) {
   std::string text = ink.bold(what_was_done(report)) + "\n";
-  const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
-  text += wrapped("  ", fmt::format("on {}", machine), 2);
+  text += wrapped("  ", fmt::format("on {}", machine_in_words(report)), 2);
   if (!report.unmeasured.empty()) text += wrapped("  ", report.unmeasured, 2);
   if (report.command == Command::predict) return text;
   const std::string method =
@@ -315,6 +314,12 @@ std::string what_was_done(const RunReport& report) {
   if (report.command == Command::verify)
     return fmt::format("verify {} for {}", file_name(report, "corrected"), program);
   return fmt::format("{} {}", name_of(report.command), program);
+}
+
+std::string machine_in_words(const RunReport& report) {
+  const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
+  return report.temperature_C ? fmt::format("{} at {:.6g} degrees Celsius", machine, *report.temperature_C)
+                              : machine;
 }
 
 std::string verdict_line(const RunReport& report, const Ink& ink) {

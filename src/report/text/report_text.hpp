@@ -11,6 +11,9 @@ namespace counterflex {
 /// "verify B.ngc for A.ngc".
 std::string what_was_done(const RunReport& report);
 
+/// "Mill", "Mill at 25 degrees Celsius" where a temperature is given.
+std::string machine_in_words(const RunReport& report);
+
 /// The verdict in its colour, with a newline.
 std::string verdict_line(const RunReport& report, const Ink& ink);
 

@@ -29,11 +29,10 @@ std::string item(std::string_view label, const std::string& text) {
 }
 
 std::string headline(const RunReport& report, const Ink& ink) {
-  const std::string machine = report.machine.empty() ? "an unnamed machine" : report.machine;
   const std::string method =
       report.method == Method::direct ? "" : fmt::format(", method {}", to_string(report.method));
-  return ink.bold(what_was_done(report)) + " on " + without_controls(machine) + method + "\n" +
-         (report.unmeasured.empty() ? "" : item("machine", report.unmeasured));
+  return ink.bold(what_was_done(report)) + " on " + without_controls(machine_in_words(report)) + method +
+         "\n" + (report.unmeasured.empty() ? "" : item("machine", report.unmeasured));
 }
 
 std::string causes_text(const SourcesAtWorst& at) {

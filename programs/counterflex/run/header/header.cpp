@@ -175,6 +175,8 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
       "MADE FOR " + (name.empty() ? "A MACHINE WITHOUT A NAME" : name)};
   if (is_unmeasured(run.machine.machine)) lines.push_back("UNMEASURED MACHINE, ITS STIFFNESS IS ASSUMED");
   for (const InputFile& list : run.file.data_lists) lines.push_back("DATA LIST " + short_hash(list));
+  if (const auto& temperature = run.machine.machine.temperature)
+    lines.push_back(fmt::format("TEMPERATURE {} DEGREES CELSIUS", short_number(*temperature, 4)));
   add_work(run, lines);
   add_tools(run, lines);
   add_forces(options, run, lines);

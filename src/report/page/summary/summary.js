@@ -161,10 +161,10 @@
     return largest > 0 && without.moves > 0 ? `${size} ${words.counted(without.moves, 'feed move')} without a force.` : size;
   }
 
-  /** What the numbers rest on: place and datum of the part, force, tools, weights. */
+  /** What the numbers rest on: place and datum of the part, force, tools, weights, temperature. */
   function assumptionList({report}) {
-    const {work, datum, tools, gravity, unmeasured} = report.assumptions || {};
-    const list = [unmeasured, work, datum, forceSentence(report), tools, gravity].filter(Boolean);
+    const {work, datum, tools, gravity, thermal, unmeasured} = report.assumptions || {};
+    const list = [unmeasured, work, datum, forceSentence(report), tools, gravity, thermal].filter(Boolean);
     return el('div', {class: 'assumptions'}, el('h3', null, 'Assumed'), el('ul', null, list.map((text) => el('li', null, words.unitsOf(text)))));
   }
 
