@@ -250,6 +250,21 @@ TEST_CASE("a held pose has the wrench that holds it, a curve its points, in text
       "pose,displacement_mm,force_N,stiffness_N_per_m,stable,x_mm,y_mm,z_mm\n1,0."));
 }
 
+TEST_CASE("a stated force and the force of a curve name what acts beside them") {
+  AnalysisExtras extras;
+  extras.curve = CurveRequest{Vector3::UnitX(), 0, 0.1e-3, 2};
+  AnalysisReport report = analyze(orthoglide(), {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0", extras);
+  CHECK(contains(to_text(report), ", no load\n"));
+  CHECK(contains(to_text(report), "from its place without force\n"));
+  report.preloaded = true;
+  CHECK(contains(to_text(report), ", no load but the machine's preloads\n"));
+  CHECK(contains(to_text(report), "under the machine's preloads, to which this force adds\n"));
+  report.weighs = true;
+  report.load.F[0] = 10;
+  CHECK(contains(to_text(report), "\nwhich acts in addition to the machine's own weight and preloads\n"));
+  CHECK(contains(to_text(report), "under --force and the machine's own weight and preloads, to which"));
+}
+
 TEST_CASE("a pose outside the actuators' travel is analyzed and marked") {
   const PoseAnalysis pose = analyze_pose(orthoglide(), at_mm(-140, 0, 0), {}, Method::direct);
   CHECK(pose.status == Status::outside_travel);
@@ -382,10 +397,10 @@ TEST_CASE("an analysis states that the machine's own weight acts") {
   machine.chains[0].elements.push_back(PointMass{4, Vector3::Zero()});
   const Model model = prepare(machine);
   CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0"))
-            .find(", no load but its own weight\n") != std::string::npos);
+            .find(", no load but the machine's own weight\n") != std::string::npos);
   const Load cut{(Vector6() << 10, 0, 0, 0, 0, 0).finished(), false};
   CHECK(to_text(analyze(model, {at_mm(0, 0, 0)}, cut, Method::direct, "0.1.0"))
-            .find("and the machine's own weight\n") != std::string::npos);
+            .find("which acts in addition to the machine's own weight\n") != std::string::npos);
 }
 
 namespace {

@@ -87,8 +87,9 @@ struct AnalysisReport {
   std::vector<Travel> travel;  ///< by actuator: its kind gives the unit, mm or deg
   ShownActuators shown;        ///< the texts have the shown values of actuators
   std::vector<PoseAnalysis> poses;
-  std::string tool{};   ///< in the spindle, and its stiffness; empty: [tool]
-  bool weighs = false;  ///< the machine's own weight acts, too
+  std::string tool{};      ///< in the spindle, and its stiffness; empty: [tool]
+  bool weighs = false;     ///< the machine's own weight acts, too
+  bool preloaded = false;  ///< its preloads do
   std::optional<CurveRequest> curve{};
 };
 

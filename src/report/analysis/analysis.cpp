@@ -219,6 +219,7 @@ AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const
   AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, model.mechanism.shown,
                         {}};
   report.weighs = has_weight(model.mechanism);
+  report.preloaded = has_preload(model.mechanism);
   report.curve = extras.curve;
   for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method, extras));
   return report;

@@ -22,6 +22,13 @@ Json points_json(const std::vector<CurvePoint>& points) {
   return list;
 }
 
+/// What acts where the curve begins.
+std::string begin_in_words(const AnalysisReport& report) {
+  std::string loads = own_loads(report);
+  if (!report.load.F.isZero(0)) loads = loads.empty() ? "--force" : "--force and " + loads;
+  return loads.empty() ? "without force" : "under " + loads + ", to which this force adds";
+}
+
 std::string curve_text(std::size_t index, const ForceCurve& curve) {
   std::string text;
   for (const CurvePoint& point : curve.points)
@@ -49,10 +56,9 @@ Json curve_json(const ForceCurve& curve) {
 std::string curves_text(const AnalysisReport& report) {
   if (!report.curve) return "";
   const Vector3& d = report.curve->direction;
-  std::string text =
-      fmt::format("\nForce over displacement of the tip along ({}, {}, {}), from its place {}\n",
-                  format_fixed(d.x(), 3), format_fixed(d.y(), 3), format_fixed(d.z(), 3),
-                  report.load.F.isZero(0) ? "without force" : "under --force, to which this force adds");
+  std::string text = fmt::format(
+      "\nForce over displacement of the tip along ({}, {}, {}), from its place {}\n", format_fixed(d.x(), 3),
+      format_fixed(d.y(), 3), format_fixed(d.z(), 3), begin_in_words(report));
   text += fmt::format("  {:>3}{:>18}{:>18}{:>18}\n", "", "mm", "N", "tangent, N/um");
   for (std::size_t i = 0; i < report.poses.size(); ++i)
     if (report.poses[i].curve) text += curve_text(i + 1, *report.poses[i].curve);

@@ -19,6 +19,9 @@ std::string details_text(const AnalysisReport& report);
 std::string held_text(const AnalysisReport& report);
 std::string curves_text(const AnalysisReport& report);
 
+/// What of the machine file acts beside the stated load: "the machine's own weight and preloads"; or empty.
+std::string own_loads(const AnalysisReport& report);
+
 /// "5 spring rx": the name of a coordinate in tables and rows of matrices.
 std::string name_of(const CoordinateDetail& coordinate);
 

@@ -29,13 +29,14 @@ std::string title(const AnalysisReport& report) {
   if (!report.poses.empty()) text += fmt::format(", method {}", to_string(report.poses.front().method));
   if (!report.tool.empty()) text += "\nwith " + report.tool;
   const Vector6& F = report.load.F;
-  if (F.isZero(0)) return text + (report.weighs ? ", no load but its own weight\n" : ", no load\n");
+  const std::string own = own_loads(report);
+  if (F.isZero(0)) return text + (own.empty() ? ", no load\n" : ", no load but " + own + "\n");
   return text +
          fmt::format("\nload ({}, {}, {}) N, ({}, {}, {}) N m at the {}, machine axes\n",
                      number_text(F[0], 2), number_text(F[1], 2), number_text(F[2], 2), number_text(F[3], 3),
                      number_text(F[4], 3), number_text(F[5], 3),
                      report.load.at_platform ? "platform's reference point" : "tool tip") +
-         (report.weighs ? "and the machine's own weight\n" : "");
+         (own.empty() ? "" : "which acts in addition to " + own + "\n");
 }
 
 std::string deviations(const AnalysisReport& report) {
@@ -188,6 +189,11 @@ std::string stiffnesses(const AnalysisReport& report) {
 }
 
 }  // namespace
+
+std::string own_loads(const AnalysisReport& report) {
+  if (report.weighs && report.preloaded) return "the machine's own weight and preloads";
+  return report.weighs ? "the machine's own weight" : report.preloaded ? "the machine's preloads" : "";
+}
 
 std::string to_text(const AnalysisReport& report) {
   return title(report) + deviations(report) + chain_loads(report) + actuators(report) +
