@@ -219,10 +219,11 @@ struct ToolReport {
 };
 
 struct ForceSummary {
-  double largest_N = 0;   ///< force acting on a feed move
-  double largest_Nm = 0;  ///< and moment
-  std::size_t ramps = 0;  ///< steps of the profile that act as ramps
-  std::size_t jumps = 0;  ///< steps that act as steps
+  double largest_N = 0;      ///< force acting on a feed move
+  double largest_Nm = 0;     ///< and moment, as it is stated: see `at_platform`
+  bool at_platform = false;  ///< forces and moments are those at the reference point instead of the tip
+  std::size_t ramps = 0;     ///< steps of the profile that act as ramps
+  std::size_t jumps = 0;     ///< steps that act as steps
   double largest_step_N = 0;
   WithoutForce without;
 };

@@ -132,7 +132,7 @@ class MoveListing {
     if (profile_) profile_->write(profile_head(program, at_platform));
     to_stdout_ = options.output == "-";
     if (!to_stdout_) page_.emplace("-");
-    write(json_ ? json_head(program) : table_head(program));
+    write(json_ ? json_head(program, at_platform) : table_head(program, at_platform));
   }
 
   void add(const MoveForce& move) {

@@ -71,14 +71,14 @@ void add(const MoveForce& move, ForceTotals& totals) {
   totals.largest_line = move.line;
 }
 
-std::string table_head(const std::string& program) {
+std::string table_head(const std::string& program, bool at_platform) {
   return fmt::format(
       "forces of {}\n"
-      "on the tool, in the middle of every feed move, in the feed frame: x along the feed, z from tip to "
+      "{}, in the middle of every feed move, in the feed frame: x along the feed, z from tip to "
       "spindle\n\n"
       "{:>7} {:>5} {:>11} {:>9} {:>7} {:>8} {:>9} {:>9} {:>9} {:>9} {:>9} {:>9}\n",
-      program, "line", "tool", "length_mm", "mm_min", "S", "fz_mm", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm",
-      "mz_Nm");
+      program, at_platform ? "at the platform's reference point (at = platform)" : "on the tool", "line",
+      "tool", "length_mm", "mm_min", "S", "fz_mm", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm", "mz_Nm");
 }
 
 std::string table_row(const MoveForce& move) {
@@ -113,9 +113,9 @@ std::string table_foot(const ForceTotals& totals) {
   return text;
 }
 
-std::string json_head(const std::string& program) {
-  return fmt::format("{{\n  \"schema\": \"counterflex-move-forces 1\",\n  \"program\": {},\n  \"moves\": [",
-                     nlohmann::json(program).dump());
+std::string json_head(const std::string& program, bool at_platform) {
+  return fmt::format("{{\n  \"schema\": \"counterflex-move-forces 1\",\n  \"program\": {},\n{}  \"moves\": [",
+                     nlohmann::json(program).dump(), at_platform ? "  \"wrench_at\": \"platform\",\n" : "");
 }
 
 std::string json_row(const MoveForce& move, bool first) {

@@ -24,13 +24,14 @@ struct ForceTotals {
 
 void add(const MoveForce& move, ForceTotals& totals);
 
-std::string table_head(const std::string& program);
+/// `at_platform`: where the wrenches are, at the reference point or at the tip.
+std::string table_head(const std::string& program, bool at_platform);
 std::string table_row(const MoveForce& move);
 std::string table_foot(const ForceTotals& totals);
 
 /// A JSON document in three parts: begin, rows, end. `json_row` adds the separator before all rows except the
 /// first.
-std::string json_head(const std::string& program);
+std::string json_head(const std::string& program, bool at_platform);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
 

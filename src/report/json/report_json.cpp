@@ -70,12 +70,14 @@ Json without_force_json(const WithoutForce& without) {
 Json forces_json(const RunReport& report) {
   const ForceSummary& forces = report.forces;
   const auto known = [&](double value) { return report.before ? number(value, 4) : Json(nullptr); };
-  return {{"largest_N", known(forces.largest_N)},
-          {"largest_Nm", known(forces.largest_Nm)},
-          {"ramps", forces.ramps},
-          {"jumps", forces.jumps},
-          {"largest_step_N", number(forces.largest_step_N, 4)},
-          {"without_force", without_force_json(forces.without)}};
+  Json json = {{"largest_N", known(forces.largest_N)},
+               {"largest_Nm", known(forces.largest_Nm)},
+               {"ramps", forces.ramps},
+               {"jumps", forces.jumps},
+               {"largest_step_N", number(forces.largest_step_N, 4)},
+               {"without_force", without_force_json(forces.without)}};
+  if (forces.at_platform) json["wrench_at"] = "platform";
+  return json;
 }
 
 Json left_alone_json(const Capped<LeftAlone>& blocks) {

@@ -116,6 +116,7 @@ FeedMoves RunTally::feed_moves() const {
 }
 
 void RunTally::add_forces(const PathForces& forces) {
+  forces_.at_platform = forces.at_platform();
   forces_.ramps += forces.ramps();
   forces_.jumps += forces.jumps();
   forces_.largest_step_N = std::max(forces_.largest_step_N, forces.largest_step_N());

@@ -64,8 +64,9 @@ std::string force_text(const RunReport& report, const Ink& ink) {
     return text + (report.gravity.empty()
                        ? "  no cutting force given: only geometric errors count\n"
                        : "  no cutting force given: only geometric errors and weight count\n");
-  text += fmt::format("  up to {} N and {} N m on the tool\n", format_fixed(forces.largest_N, 1),
-                      format_fixed(forces.largest_Nm, 2));
+  text += fmt::format(
+      "  up to {} N and {} N m {}\n", format_fixed(forces.largest_N, 1), format_fixed(forces.largest_Nm, 2),
+      forces.at_platform ? "at the platform's reference point (at = platform)" : "on the tool");
   if (forces.ramps > 0)
     text += fmt::format("  {} of the profile acting as ramps\n", counted(forces.ramps, "step"));
   if (forces.jumps > 0)

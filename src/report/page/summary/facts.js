@@ -80,7 +80,8 @@
   }
 
   function largestForce({forces}) {
-    return known(forces.largest_N) ? `${fixed(forces.largest_N, 1)} N, ${fixed(forces.largest_Nm, 2)} N m` : unknown;
+    const where = forces.wrench_at === 'platform' ? " at the platform's reference point" : '';
+    return known(forces.largest_N) ? `${fixed(forces.largest_N, 1)} N, ${fixed(forces.largest_Nm, 2)} N m${where}` : unknown;
   }
 
   function forceSteps({forces}) {
