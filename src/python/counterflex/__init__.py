@@ -267,15 +267,16 @@ def compensate(
 def predict(
     text: Text, machine: Machine, forces: Forces = None, *, name: Path = "program.ngc", **options: OptionValue
 ) -> Report:
-    """The deviation of a program without a correction, with its causes. Arguments and errors are those of `compensate`."""
+    """The deviation of a program without a correction, always with its causes. Arguments and errors are those of
+    `compensate`, except ``causes``, which is of `compensate` alone."""
     return _report(_core.predict(machine._core, _bytes_of(text), os.fsencode(name), _given(forces, options)))
 
 
 def verify(
     text: Text, corrected: Text, machine: Machine, forces: Forces = None, *, name: Path = "program.ngc", **options: OptionValue
 ) -> Report:
-    """Solves a corrected program forward, against the path of its original ``text``. Other arguments and errors are those
-    of `compensate`."""
+    """Solves a corrected program forward, against the path of its original ``text``, always with its causes. Other
+    arguments and errors are those of `compensate`, except ``causes``, which is of `compensate` alone."""
     given = _given(forces, options)
     return _report(_core.verify(machine._core, _bytes_of(text), _bytes_of(corrected), os.fsencode(name), given))
 
