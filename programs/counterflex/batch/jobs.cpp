@@ -24,15 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-std::vector<std::string> files_read(const Options& options) {
-  std::vector<std::string> files = options.forces;
-  const std::vector<std::string> program = files_of_program(options.program, options.data_lists);
-  files.insert(files.end(), program.begin(), program.end());
-  files.push_back(options.machine);
-  if (options.tool_table) files.push_back(*options.tool_table);
-  return files;
-}
-
 /// Settings of the environment. Their paths are relative to the working directory.
 std::vector<Setting> environment_of(const std::string& from) {
   std::vector<Setting> settings = read_environment(environment_variables());
@@ -115,7 +106,7 @@ class JobList {
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
-    for (const std::string& file : files_read(job.options))
+    for (const std::string& file : inputs_of(job.options))
       if (file == "-")
         throw InputError(ErrorKind::machine_or_force, entry.where,
                          fmt::format("{}: a job cannot read standard input (-); name a file", program));
@@ -147,7 +138,7 @@ class JobList {
     for (const char* name : {"/summary.json", "/summary.csv"})
       summaries.insert(canonical_name(file_.output + name));
     for (const FoundJob& found : found_)
-      for (const std::string& path : files_read(found.job.options)) inputs.insert(canonical_name(path));
+      for (const std::string& path : inputs_of(found.job.options)) inputs.insert(canonical_name(path));
     for (const FoundJob& found : found_)
       for (const std::string& path : files_written(found.job)) {
         const std::string name = canonical_name(path);

@@ -125,6 +125,7 @@ std::optional<ErrorKind> compensate_run(const Options& options, Run& run, const 
   if (options.only_significant) find_insignificant(run, console);
   prepare_writing(options, run);
   if (options.guard) prepare_guard(run, console);
+  refuse_replaced(paths, run.uncertainty_files);
   RunFiles files(paths, columns_of(options, run), options.hash_outputs || wants_proof(options));
   if (options.max_points && can_be_divided(run.program.dialect)) files.hold_program();
   if (run.file.lines) files.count_loop();

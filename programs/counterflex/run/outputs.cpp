@@ -23,9 +23,6 @@
 #include "settings/output_names.hpp"
 
 namespace counterflex::cli {
-namespace {
-
-namespace fs = std::filesystem;
 
 std::vector<std::string> inputs_of(const Options& options) {
   std::vector<std::string> inputs = files_of_program(options.program, options.data_lists);
@@ -33,9 +30,14 @@ std::vector<std::string> inputs_of(const Options& options) {
   if (!options.verify.corrected.empty()) inputs.push_back(options.verify.corrected);
   inputs.insert(inputs.end(), options.forces.begin(), options.forces.end());
   if (options.tool_table) inputs.push_back(*options.tool_table);
+  if (options.uncertainty) inputs.push_back(*options.uncertainty);
   if (!options.project_file.empty()) inputs.push_back(options.project_file);
   return inputs;
 }
+
+namespace {
+
+namespace fs = std::filesystem;
 
 void check_place(const std::string& path, const std::vector<std::string>& made = {}) {
   if (path == "-") return;
@@ -60,14 +62,17 @@ void refuse_control_characters(const std::vector<std::string>& outputs, const st
                                    without_controls(path)));
 }
 
+[[noreturn]] void refuse_replacing(const std::string& output, const std::string& input) {
+  throw InputError(ErrorKind::usage, {output},
+                   fmt::format("the output would replace the input {}; give another name", input));
+}
+
 void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                  const std::vector<std::string>& made = {}) {
   for (std::size_t i = 0; i < outputs.size(); ++i) {
     check_place(outputs[i], made);
     for (const std::string& input : inputs)
-      if (is_same_file(outputs[i], input))
-        throw InputError(ErrorKind::usage, {outputs[i]},
-                         fmt::format("the output would replace the input {}; give another name", input));
+      if (is_same_file(outputs[i], input)) refuse_replacing(outputs[i], input);
     for (std::size_t k = 0; k < i; ++k)
       if (is_same_file(outputs[i], outputs[k]))
         throw InputError(ErrorKind::usage, {outputs[i]},
@@ -208,6 +213,13 @@ OutputPaths output_paths(const Options& options) {
   check_paths(outputs, inputs_of(options), options.folders);
   paths.folders = options.folders;
   return paths;
+}
+
+void refuse_replaced(const OutputPaths& paths, const std::vector<InputFile>& inputs) {
+  for (const std::string& output :
+       {paths.program, paths.report_json, paths.report_csv, paths.report_page, paths.plot})
+    for (const InputFile& input : inputs)
+      if (!output.empty() && is_same_file(output, input.path)) refuse_replacing(output, input.path);
 }
 
 void refuse_foreign(const std::vector<OwnFile>& files) {

@@ -43,6 +43,10 @@ struct OutputPaths {
 /// output; ErrorKind::transient_io if a folder does not exist.
 OutputPaths output_paths(const Options& options);
 
+/// Throws `InputError` (ErrorKind::usage) if an output would replace one of `inputs`: of those that are known
+/// only after the machine was read.
+void refuse_replaced(const OutputPaths& paths, const std::vector<InputFile>& inputs);
+
 /// The name of the corrected data list: the list's own name in the folder of the corrected program, or
 /// NAME.comp.dat if that is the list itself. The list beside the program gets the stem of the corrected one.
 std::string corrected_list(const std::string& list, const std::string& program, const std::string& corrected);
@@ -58,6 +62,10 @@ bool belongs_to_control(const std::string& list);
 
 /// One name for all paths of a file, which may not exist.
 std::string canonical_name(const std::string& path);
+
+/// The files that the options name as inputs. A machine file or --uncertainty may name a further one, its
+/// covariance.
+std::vector<std::string> inputs_of(const Options& options);
 
 /// A file that a command writes, and whether the present file of that name was written by counterflex.
 struct OwnFile {

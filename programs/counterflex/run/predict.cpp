@@ -30,6 +30,7 @@ std::optional<ErrorKind> predict_run(const Options& options, Run& run, const Out
   if (options.free_spin) choose_spin(run, console);
   std::optional<OffsetSearch> offsets;
   if (options.predict.offsets) offsets.emplace(run);
+  refuse_replaced(paths, run.uncertainty_files);
   RunFiles files(paths, columns_of(options, run));
   RunTally tally = tally_for(options, run);
   const std::optional<Failure> failure =

@@ -62,6 +62,7 @@ std::optional<ErrorKind> verify_run(const Options& options, Run& run, ProgramFil
   run.corrected_name = shown_name(options.verify.corrected);
   for (const std::string& warning : other_inputs_of_header(scan.beginning, run))
     console.warning(run.corrected_name, 0, warning);
+  refuse_replaced(paths, run.uncertainty_files);
   RunFiles files(paths, columns_of(options, run));
   corrected.bytes.rewind();
   ProgramReader reader(corrected.bytes, run.corrected_name, read);
