@@ -50,7 +50,8 @@ struct Scatter {
   }
 };
 
-/// What makes rows of a session repeats: actuator values, forces, directions.
+/// What makes rows of a session repeats: tools, actuator values, forces, directions, the place of the gauge
+/// and the phase.
 std::vector<long> key_of(const Measurement& row, const std::vector<Actuator>& actuators) {
   std::vector<long> key;
   for (const CommandedState& at : row.states) {
@@ -61,8 +62,11 @@ std::vector<long> key_of(const Measurement& row, const std::vector<Actuator>& ac
     for (const double value : at.F) key.push_back(std::lround(value * 1e3));
     key.push_back(static_cast<long>(at.directions.forward));
     key.push_back(static_cast<long>(at.directions.backward));
+    key.push_back(at.tool);
   }
   for (const double value : row.direction) key.push_back(std::lround(value * 1e4));
+  for (const double value : row.gauge) key.push_back(std::lround(value / same_length));
+  key.push_back(std::lround(row.offset_share));
   return key;
 }
 

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <cmath>
+#include <functional>
 
 #include "counterflex/machine/read_machine.hpp"
 #include "identify/campaigns.hpp"
@@ -56,6 +57,24 @@ SessionNoise noise_with(const Machine& nominal, const Machine& truth, IdentifyOp
   const Identification found = identify(nominal, all, options);
   REQUIRE(found.noise.size() == 1);
   return found.noise[0];
+}
+
+/// 80 pushes at 8 places; `more` gives further columns of a row.
+std::string pushes_at_places(const std::string& columns, const std::function<std::string(int)>& more) {
+  Random random(4);
+  std::string csv = "kind,X_mm,Y_mm,Z_mm,fx_N,fy_N,fz_N,gx,gy,gz,reading_um" + columns + "\n";
+  for (int place = 0; place < 8; ++place)
+    for (int i = 0; i < 10; ++i)
+      csv += fmt::format("static_push,{},0,0,400,0,0,1,0,0,{:.3f},{}\n", 10 * place, 20 + 2 * normal(random),
+                         more(i));
+  return csv;
+}
+
+std::vector<SessionNoise> noise_of(const std::string& csv) {
+  const Machine machine = mill_out_of_square("0");
+  Measurements all;
+  read_measurements(csv, "pushes.csv", machine, all);
+  return identify(machine, all, {}).noise;
 }
 
 std::string error_of_repeats(const std::string& rows) {
@@ -112,6 +131,15 @@ TEST_CASE("rows at nearly equal states are repeats, too") {
   CHECK(found.noise[0].noise == doctest::Approx(2e-6).epsilon(0.2));
   CHECK(found.noise[0].noise_of_means == doctest::Approx(found.noise[0].noise / std::sqrt(10.0)));
   CHECK(*found.repeatability == doctest::Approx(found.noise[0].noise));
+}
+
+TEST_CASE("pushes that a gauge reads elsewhere, or in another phase, are not repeats") {
+  const auto heights = [](int i) { return fmt::format("{}", 30 * i); };
+  CHECK(noise_of(pushes_at_places(",gauge_z_mm", heights)).empty());
+  const auto phases = [](int i) { return std::string(i % 2 == 0 ? "loading" : "unloading"); };
+  const std::vector<SessionNoise> noise = noise_of(pushes_at_places(",phase", phases));
+  REQUIRE(noise.size() == 1);
+  CHECK(noise[0].freedoms == 8 * 2 * 4);
 }
 
 TEST_CASE("repeats that show nothing are refused at their place") {
