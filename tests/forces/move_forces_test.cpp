@@ -105,6 +105,22 @@ TEST_CASE("a model's moves have its feed per tooth, its wrench and its reasons")
   CHECK(moves_of(sample_program(), model(sample_cut()))[1].why == "no spindle speed is programmed");
 }
 
+TEST_CASE("the force on an upright circle follows its slope, wherever the circle begins") {
+  for (const int quarter : {0, 1, 2, 3}) {  // from the bottom, a side, the top, the other side
+    CAPTURE(quarter);
+    const double angle = quarter * 90 * deg;
+    const Vector3 start(10 * std::sin(angle), 0, -10 * std::cos(angle));
+    Program circle = ProgramBuilder(start).feed(start, 600).about({0, 0, 0}, 1).program;
+    circle.moves[0].spindle_rpm = speed_rpm;
+    circle.operations = {""};
+    const MoveForce move = moves_of(circle, model(sample_cut()))[0];
+    CHECK(move.changes);
+    CHECK(move.steps.empty());
+    const Vector6 level = at_feed_per_tooth(sample_cut(), 0.05 * mm);
+    CHECK(move.largest_N == doctest::Approx(level.head<3>().norm()).epsilon(1e-3));
+  }
+}
+
 TEST_CASE("a model's own spindle speed is listed") {
   CuttingModel cut = sample_cut();
   cut.spindle_rpm = 6000;

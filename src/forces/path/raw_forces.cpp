@@ -23,7 +23,7 @@ constexpr std::string_view not_given = "no force is given for it";
 constexpr std::string_view not_in_holes = "the rows of a profile do not act in holes of cycles";
 constexpr std::string_view in_the_air = "it is wholly above --air-above";
 
-// Slopes closer than this give the same cutting force; number of places per piece of an arc where it is
+// Slopes closer than this give the same cutting force; number of places per piece of turning axes where it is
 // computed.
 constexpr double same_slope = 1e-9;
 constexpr int slopes_per_piece = 10;
@@ -258,17 +258,20 @@ void RawForces::give_cut(const CutResponse& response, double s0, double s1, std:
     return direction_at(segment.wanted, u).dot(axes.at(u, 1).R_MF.col(2));
   };
   const auto force = [&](double s) { return cutting_force(response, segment.feed_m_s, rpm, slope(s)); };
+  const int places = axes.turn() ? slopes_per_piece * axes.pieces() : 1;
+  const auto place = [&](int k) { return k == places ? s1 : s0 + (s1 - s0) * k / places; };
   const double middle = slope((s0 + s1) / 2);
-  const bool even = std::abs(slope(s0) - middle) < same_slope && std::abs(slope(s1) - middle) < same_slope;
-  const int parts = even ? 1 : slopes_per_piece * axes.pieces();
+  bool even = true;
+  for (int k = 0; k <= places && even; ++k) even = std::abs(slope(place(k)) - middle) < same_slope;
+  const int parts = even ? 1 : places;
   stretch_.pieces.clear();
   stretch_.frame = ForceFrame::feed;
   stretch_.why = force((s0 + s1) / 2).why;
   for (int k = 0; k < parts; ++k) {
-    const auto at = [&](int end) { return end == parts ? s1 : s0 + (s1 - s0) * end / parts; };
-    const CutForce a = force(even ? (s0 + s1) / 2 : at(k)), b = even ? a : force(at(k + 1));
+    const double from = place(k), to = even ? s1 : place(k + 1);
+    const CutForce a = force(even ? (s0 + s1) / 2 : from), b = even ? a : force(to);
     if (a.why.empty() || b.why.empty()) stretch_.why.clear();
-    stretch_.pieces.push_back({at(k), at(k + 1), a.F, b.F, Vector6::Zero(), k > 0});
+    stretch_.pieces.push_back({from, to, a.F, b.F, Vector6::Zero(), k > 0});
   }
 }
 
