@@ -7,6 +7,7 @@
 #include "commands/forces_table.hpp"
 #include "commands/forces_walk.hpp"
 #include "commands/materials.hpp"
+#include "counterflex/compensation/tool_orientations.hpp"
 #include "process/standard_output.hpp"
 #include "run/outputs.hpp"
 #include "run/reading.hpp"
@@ -69,30 +70,6 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   warn_of_bare_run(run, options, console);
   return run;
 }
-
-/// The tool orientation in the middle of every move.
-class ToolAxes {
- public:
-  explicit ToolAxes(const Run* run) : run_(run) {
-    if (run != nullptr) nominal_.emplace(run->machine.model);
-  }
-
-  std::vector<Matrix3> along(const Program& window, const Toolpath& path) {
-    if (run_ == nullptr || path.segments.empty()) return {Matrix3::Identity()};
-    std::vector<Matrix3> R_MT;
-    for (const Segment& segment : path.segments) {
-      const Model& model =
-          model_with(run_->machine.model, &run_->tool_models, window.moves[segment.move].tool);
-      nominal_->go_to(model, point_at(segment.wanted, 0.5));  // ignores places that are not reached
-      R_MT.push_back(nominal_->orientation());
-    }
-    return R_MT;
-  }
-
- private:
-  const Run* run_;
-  std::optional<NominalToolPath> nominal_;
-};
 
 /// Reports feed moves with unknown positions: they are not part of the path. One warning for consecutive
 /// moves.
@@ -163,11 +140,11 @@ class MoveListing {
   std::optional<FileWriter> profile_, page_;
 };
 
-/// Calls `take` for each window, with its path and the forces of its feed moves.
-void walk_windows(const PathInput& input, const ForceSource& source, const Run* run, int lines,
-                  Console& console, const TakeWindow& take) {
+/// Calls `take` for each window, with its path and the forces of its feed moves. `machine` turns the tool as
+/// in a run; without it the tool is parallel to z of the program.
+void walk_windows(const PathInput& input, const ForceSource& source, const std::optional<RunInput>& machine,
+                  int lines, Console& console, const TakeWindow& take) {
   ProgramReader reader(input.bytes, input.name, input.read);
-  ToolAxes tool(run);
   std::optional<long> block_number;
   PathEnd end;
   Unplaced unplaced;
@@ -178,7 +155,8 @@ void walk_windows(const PathInput& input, const ForceSource& source, const Run* 
     unplaced.warn(reader.window(), path, console);
     if (!path.segments.empty())
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
-    const std::vector<Matrix3> R_MT = tool.along(reader.window(), path);
+    const std::vector<Matrix3> R_MT = machine ? tool_orientations(*machine, reader.window(), path)
+                                              : std::vector<Matrix3>{Matrix3::Identity()};
     take(source, reader.window(), path, move_forces(source, reader.window(), path, R_MT, block_number));
   }
   input.bytes.refuse_change();
@@ -189,16 +167,16 @@ void walk_windows(const PathInput& input, const ForceSource& source, const Run* 
 void walk_forces(const Options& options, Console& console, const BeginWalk& begin, const TakeWindow& take) {
   if (options.machine.empty()) {
     BareRun run = prepare_bare_run(options, console);
-    const ForceSource& source = run.force_input.source;
+    ForceSource& source = run.force_input.source;
     begin(run.scan.program.file, source);
     return walk_windows({run.file.bytes, run.scan.program.file, run.read, run.work.frames, run.ignored},
-                        source, nullptr, run.scan.program.lines, console, take);
+                        source, std::nullopt, run.scan.program.lines, console, take);
   }
   const auto run = prepare_run(options, console);
-  const ForceSource& source = run->force_input.source;
+  ForceSource& source = run->force_input.source;
   begin(run->program.file, source);
   walk_windows({run->file.bytes, run->program.file, run->read, run->work.frames, run->ignored}, source,
-               run.get(), run->program.lines, console, take);
+               run->input(), run->program.lines, console, take);
 }
 
 std::optional<ErrorKind> run_forces(const Options& options, Console& console) {
