@@ -6,6 +6,8 @@
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
+#include <optional>
+#include <utility>
 
 #include "commands/forces_walk.hpp"
 #include "counterflex/files/file_writer.hpp"
@@ -28,6 +30,9 @@ struct FitGroup {
   CuttingCoefficients given;
 };
 
+/// What the program commands the spindle: tool and S (1/min).
+using SpindleCommand = std::pair<long, double>;
+
 /// The cutting model, its groups, and what the spindle does.
 struct FitInput {
   std::string model_text;
@@ -37,7 +42,7 @@ struct FitInput {
   SpindleLog log;
   std::string program;
   std::vector<SpindleMove> moves;
-  std::map<double, double> speeds;  ///< of cuts, by S of the program (1/min)
+  std::vector<SpindleCommand> commands;  ///< of the moves
 };
 
 std::string model_file(const Options& options) {
@@ -92,24 +97,46 @@ void add_window(const ForceSource& source, const Program& window, const Toolpath
                 const std::vector<MoveForce>& forces, FitInput& input) {
   std::size_t next = 0;
   for (const Segment& segment : path.segments) {
+    const Move& of = window.moves[segment.move];
+    input.commands.emplace_back(of.tool, of.spindle_rpm);
     if (segment.cutting) {
-      const SpindleMove& move = input.moves.emplace_back(spindle_move(forces[next++], source, input));
-      if (move.kind == SpindleMove::Kind::cut)
-        input.speeds[window.moves[segment.move].spindle_rpm] = move.rpm;
+      input.moves.push_back(spindle_move(forces[next++], source, input));
       continue;
     }
-    SpindleMove rapid{
-        .line = segment.line, .kind = SpindleMove::Kind::air, .rpm = window.moves[segment.move].spindle_rpm};
+    SpindleMove rapid{.line = segment.line, .kind = SpindleMove::Kind::air, .rpm = of.spindle_rpm};
     if (input.log.rapid_m_s > 0) rapid.seconds = length(segment.wanted) / input.log.rapid_m_s;
     input.moves.push_back(rapid);
   }
 }
 
-/// Air cuts have the spindle speed that the sections give for the cuts at the same S of the program.
+/// The speeds of the sections in cuts may differ from S of the program. An air cut has the speed of the cuts
+/// with the same tool and S before it and after it. If these differ, its speed is unknown.
 void settle_speeds(FitInput& input) {
-  for (SpindleMove& move : input.moves) {
-    const auto at = input.speeds.find(move.rpm);
-    if (move.kind == SpindleMove::Kind::air && at != input.speeds.end()) move.rpm = at->second;
+  using Kind = SpindleMove::Kind;
+  std::vector<SpindleMove>& moves = input.moves;
+  std::map<SpindleCommand, double> speeds;
+  std::vector<std::optional<double>> after(moves.size());
+  const auto speed_of = [&](std::size_t i) -> std::optional<double> {
+    if (moves[i].kind == Kind::cut) speeds[input.commands[i]] = moves[i].rpm;
+    const auto at = speeds.find(input.commands[i]);
+    return at == speeds.end() ? std::nullopt : std::optional(at->second);
+  };
+  for (std::size_t i = moves.size(); i-- > 0;) after[i] = speed_of(i);
+  speeds.clear();
+  for (std::size_t i = 0; i < moves.size(); ++i) {
+    const std::optional<double> before = speed_of(i);
+    if (moves[i].kind != Kind::air) continue;
+    if (before && after[i] && *before != *after[i]) moves[i].kind = Kind::unknown;
+    if (before || after[i]) moves[i].rpm = before ? *before : *after[i];
+  }
+}
+
+/// A log shows the mean torque over a revolution, wherever the force of a section acts.
+void take_mean_torques(const std::vector<CutSection>& sections, ForceSource& source) {
+  for (std::size_t i = 0; i < sections.size(); ++i) {
+    CuttingModel model = sections[i].model;
+    model.force_at = ForceAt::mean;
+    source.rules[i].content = respond(model);
   }
 }
 
@@ -121,7 +148,11 @@ FitInput read_fit_input(const Options& options, Console& console) {
   find_groups(input);
   input.log = read_spindle_log(read_file(*options.forces_table.log), *options.forces_table.log);
   walk_forces(
-      options, console, [&](const std::string& program, const ForceSource&) { input.program = program; },
+      options, console,
+      [&](const std::string& program, ForceSource& source) {
+        input.program = program;
+        take_mean_torques(input.sections, source);
+      },
       [&](const ForceSource& source, const Program& window, const Toolpath& path,
           const std::vector<MoveForce>& forces) { add_window(source, window, path, forces, input); });
   settle_speeds(input);

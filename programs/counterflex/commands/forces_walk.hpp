@@ -10,8 +10,8 @@
 
 namespace counterflex::cli {
 
-/// Called once, with the name of the program.
-using BeginWalk = std::function<void(const std::string& program, const ForceSource& source)>;
+/// Called once, with the name of the program. May change the contents of the rules.
+using BeginWalk = std::function<void(const std::string& program, ForceSource& source)>;
 /// Called for each window with its path and the forces of its feed moves; `source` outlives the walk's calls.
 using TakeWindow = std::function<void(const ForceSource& source, const Program& window, const Toolpath& path,
                                       const std::vector<MoveForce>& moves)>;
