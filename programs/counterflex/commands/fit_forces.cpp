@@ -175,6 +175,23 @@ std::string_view unit_of_channel(SpindleChannel channel) {
   return channel == SpindleChannel::power ? "W" : "N m";
 }
 
+/// Throws if a coefficient is found to be 0 or less: at the log, which the cutting model does not explain.
+void refuse_negative(const FitInput& input, const SpindleFit& fit) {
+  for (std::size_t g = 0; g < input.groups.size(); ++g) {
+    if (fit.scales[g].samples == 0 || fit.scales[g].value > 0) continue;
+    const FitGroup& group = input.groups[g];
+    const ShownCoefficient of = shown_coefficient(group, fit.scales[g]);
+    throw InputError(
+        ErrorKind::machine_or_force, {input.log.file, input.log.samples.front().row, 1},
+        fmt::format(
+            "the log gives {} = {:.1f} +- {:.1f} for cutter {} in {}; it must be positive: {} does not "
+            "rise with the chip; check sign and column of the channel, and depths, engagement and "
+            "edge coefficients of the cutting model",
+            of.key, of.value, of.sigma, without_controls(group.cutter), without_controls(group.material),
+            input.log.channel == SpindleChannel::power ? "the power" : "the torque"));
+  }
+}
+
 std::string fit_text(const FitInput& input, const SpindleFit& fit) {
   const std::string_view unit = unit_of_channel(input.log.channel);
   std::string text = fmt::format("spindle {} of {} over {}\n\nsamples    {} used of {}\n",
@@ -272,10 +289,12 @@ std::optional<ErrorKind> fit_forces(const Options& options, Console& console) {
   check_fit_output(options);
   const FitInput input = read_fit_input(options, console);
   const SpindleFit fit = fit_spindle(input.log, input.moves, input.groups.size());
+  refuse_negative(input, fit);
+  const std::string fitted = fitted_text(input, fit, file);
   std::optional<FileWriter> output;
   if (options.output) {
     output.emplace(*options.output);
-    output->write(fitted_text(input, fit, file));
+    output->write(fitted);
   }
   publish_together({if_any(output)});
   console.finish_warnings();

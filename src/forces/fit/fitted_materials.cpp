@@ -105,7 +105,7 @@ std::string with_fitted_materials(std::string_view text, const std::string& file
   while (out.ends_with("\n\n")) out.pop_back();
   if (!out.ends_with('\n')) out += '\n';
   for (const FittedMaterial& material : fitted) out += table_of(material);
-  read_cutting_model(out, file);
+  read_cutting_model(out, fmt::format("{} with its fitted materials", file));
   return out;
 }
 
