@@ -1,5 +1,7 @@
 #include <algorithm>
 #include <array>
+#include <cmath>
+#include <limits>
 #include <span>
 
 #include "counterflex/forces/forces.hpp"
@@ -24,6 +26,11 @@ constexpr double shortest_part = 2e-7;
 // Fractions of a piece at which it is tested for being constant. No number of turns of a helix returns to the
 // same axes at all of them.
 constexpr std::array tested{0.0, 0.1458980337503154, 0.3819660112501051, 0.5, 1.0};
+
+// Parts per piece of turning axes in which torques are computed; they are even if they change by less than
+// this along the move.
+constexpr int parts_per_piece = 4;
+constexpr double even_torque = 0.01;
 
 bool has_models(const ForceSource& source) {
   return std::any_of(source.rules.begin(), source.rules.end(),
@@ -63,6 +70,23 @@ void add_step(double s, const Vector6& F, std::vector<ForceStep>& steps) {
   if (steps.empty() || (steps.back().F - F).norm() > same_step * F.norm()) steps.push_back({s, F});
 }
 
+std::optional<CutTorque> torque_of(const CutForce& force) {
+  if (!force.why.empty()) return std::nullopt;
+  return CutTorque{force.chip_torque, force.F[5] - force.chip_torque};
+}
+
+/// Whether all torques are nearly the same, or none acts.
+bool are_even(const std::vector<std::optional<CutTorque>>& torques) {
+  double least = std::numeric_limits<double>::infinity(), most = -least;
+  for (const std::optional<CutTorque>& torque : torques) {
+    if (torque.has_value() != torques.front().has_value()) return false;
+    if (!torque) continue;
+    least = std::min(least, torque->chip + torque->edge);
+    most = std::max(most, torque->chip + torque->edge);
+  }
+  return !torques.front() || most - least <= even_torque * std::abs(most);
+}
+
 /// The moves of one window, in order.
 class MoveForces {
  public:
@@ -88,7 +112,7 @@ class MoveForces {
         result.comment && !move.force->isZero(0) && (source_.scale != 1 || in_air(source_, move));
     const AxesAlong axes = axes_of_feed(i);
     take_wrenches(axes, segment, result);
-    if (coverage_ && !in_air(source_, move)) take_model(i, axes.at(middle_of_move, 1), result);
+    if (coverage_ && !in_air(source_, move)) take_model(i, axes, result);
     return result;
   }
 
@@ -134,17 +158,23 @@ class MoveForces {
     return std::nullopt;
   }
 
-  void take_model(std::size_t i, const ForceAxes& axes, MoveForce& result) {
+  void take_model(std::size_t i, const AxesAlong& axes, MoveForce& result) {
     const ForceRule* rule = model_of(coverage_->stretches(i));
     if (rule == nullptr) return;
     const auto* response = std::get_if<CutResponse>(&rule->content);
     const Segment& segment = path_.segments[i];
-    const double slope = direction_at(segment.wanted, middle_of_move).dot(axes.R_MF.col(2));
-    const CutForce force = cutting_force(*response, segment.feed_m_s, result.spindle_rpm, slope);
-    result.feed_per_tooth = force.feed_per_tooth;
+    const double rpm = result.spindle_rpm;
+    const auto force = [&](double u) {
+      const double slope = direction_at(segment.wanted, u).dot(axes.at(u, 1).R_MF.col(2));
+      return cutting_force(*response, segment.feed_m_s, rpm, slope);
+    };
+    const CutForce middle = force(middle_of_move);
+    result.feed_per_tooth = middle.feed_per_tooth;
     result.model = rule;
-    result.chip_torque = force.chip_torque;
     if (response->spindle_rpm > 0) result.spindle_rpm = response->spindle_rpm;
+    const int parts = axes.turn() ? parts_per_piece * axes.pieces() : 1;
+    for (int k = 0; k < parts; ++k) result.torques.push_back(torque_of(force((k + 0.5) / parts)));
+    if (are_even(result.torques)) result.torques = {torque_of(middle)};
   }
 
   const ForceSource& source_;

@@ -121,6 +121,33 @@ TEST_CASE("the force on an upright circle follows its slope, wherever the circle
   }
 }
 
+TEST_CASE(
+    "the torque along a move is in one part if it is even, else in parts, those without a force empty") {
+  const MoveForce level = moves_of(turning_program(), model(sample_cut()))[1];
+  REQUIRE(level.torques.size() == 1);
+  const CutResponse response = respond(sample_cut());
+  CHECK(level.torques[0]->chip == doctest::Approx(response.F_c[5] * 0.05 * mm));
+  CHECK(level.torques[0]->edge == doctest::Approx(response.F_e[5]));
+  // Upright, from the bottom to 60 degrees, and to a quarter: the last 10 degrees are along the tool.
+  for (const double end : {60 * deg, 90 * deg}) {
+    CAPTURE(end);
+    Program arc = ProgramBuilder({0, 0, -10})
+                      .feed({10 * std::sin(end), 0, -10 * std::cos(end)}, 600)
+                      .about({0, 0, 0}, 1, true)
+                      .program;
+    arc.moves[0].spindle_rpm = speed_rpm;
+    arc.operations = {""};
+    const MoveForce move = moves_of(arc, model(sample_cut()))[0];
+    double sum = 0;
+    std::size_t empty = 0;
+    for (const auto& torque : move.torques) sum += torque ? torque->chip : 0, empty += !torque;
+    const auto parts = static_cast<double>(move.torques.size());
+    CHECK(empty == (end > 80 * deg ? 2 : 0));
+    const double cut = std::min(end, 80 * deg);
+    CHECK(sum / parts == doctest::Approx(level.torques[0]->chip * std::sin(cut) / end).epsilon(0.02));
+  }
+}
+
 TEST_CASE("a model's own spindle speed is listed") {
   CuttingModel cut = sample_cut();
   cut.spindle_rpm = 6000;

@@ -314,6 +314,11 @@ struct ForceStep {
   Vector6 F = Vector6::Zero();
 };
 
+/// The torque of a cut about the tool's axis: of the chip, in proportion to K_tc, and of the edge (N m).
+struct CutTorque {
+  double chip = 0, edge = 0;
+};
+
 /// A feed move and the wrench in its middle.
 struct MoveForce {
   int line = 0;
@@ -331,8 +336,10 @@ struct MoveForce {
   double largest_N = 0;          ///< of the force anywhere on the move
   std::vector<ForceStep> steps;  ///< what acts, from the start on; none where it changes between steps
   const ForceRule* model = nullptr;  ///< whose cutting model acts in the middle, of the source
-  double chip_torque = 0;            ///< N m; as in `CutForce`, not scaled
-  std::string why;                   ///< empty: F acts; else why no force acts
+  /// Torques of this model in equal parts of the move, not scaled: in one part where they are even. A part
+  /// without a force has none.
+  std::vector<std::optional<CutTorque>> torques;
+  std::string why;  ///< empty: F acts; else why no force acts
 };
 
 /// The feed moves of a window that is not the first: `block_number` is N of the moves before, and then of

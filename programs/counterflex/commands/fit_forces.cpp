@@ -79,18 +79,24 @@ void find_groups(FitInput& input) {
   }
 }
 
-/// What the spindle does along a feed move. The torque of a force from another source is unknown.
-SpindleMove spindle_move(const MoveForce& force, const ForceSource& source, const FitInput& input) {
+/// Adds what the spindle does along a feed move, in parts. The torque of a force from another source is
+/// unknown.
+void add_feed_move(const MoveForce& force, const ForceSource& source, FitInput& input) {
+  using Kind = SpindleMove::Kind;
   SpindleMove move{.line = force.line, .rpm = force.spindle_rpm};
   if (force.feed_m_s > 0) move.seconds = force.length / force.feed_m_s;
-  const bool cuts = force.model != nullptr && force.why.empty();
-  const bool none = force.model == nullptr && force.F.isZero(0) && !force.changes;
-  move.kind = cuts ? SpindleMove::Kind::cut : none ? SpindleMove::Kind::air : SpindleMove::Kind::unknown;
-  if (!cuts) return move;
+  if (force.model == nullptr) {
+    move.kind = force.F.isZero(0) && !force.changes ? Kind::air : Kind::unknown;
+    return input.moves.push_back(move);
+  }
   move.group = input.group_of[static_cast<std::size_t>(force.model - source.rules.data())];
-  move.chip_torque = force.chip_torque;
-  move.edge_torque = force.F[5] - force.chip_torque;
-  return move;
+  move.seconds /= static_cast<double>(force.torques.size());
+  for (const std::optional<CutTorque>& torque : force.torques) {
+    move.kind = torque ? Kind::cut : Kind::unknown;
+    move.chip_torque = torque ? torque->chip : 0;
+    move.edge_torque = torque ? torque->edge : 0;
+    input.moves.push_back(move);
+  }
 }
 
 void add_window(const ForceSource& source, const Program& window, const Toolpath& path,
@@ -98,14 +104,14 @@ void add_window(const ForceSource& source, const Program& window, const Toolpath
   std::size_t next = 0;
   for (const Segment& segment : path.segments) {
     const Move& of = window.moves[segment.move];
-    input.commands.emplace_back(of.tool, of.spindle_rpm);
     if (segment.cutting) {
-      input.moves.push_back(spindle_move(forces[next++], source, input));
-      continue;
+      add_feed_move(forces[next++], source, input);
+    } else {
+      SpindleMove rapid{.line = segment.line, .kind = SpindleMove::Kind::air, .rpm = of.spindle_rpm};
+      if (input.log.rapid_m_s > 0) rapid.seconds = length(segment.wanted) / input.log.rapid_m_s;
+      input.moves.push_back(rapid);
     }
-    SpindleMove rapid{.line = segment.line, .kind = SpindleMove::Kind::air, .rpm = of.spindle_rpm};
-    if (input.log.rapid_m_s > 0) rapid.seconds = length(segment.wanted) / input.log.rapid_m_s;
-    input.moves.push_back(rapid);
+    input.commands.resize(input.moves.size(), {of.tool, of.spindle_rpm});
   }
 }
 
