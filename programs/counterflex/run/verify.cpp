@@ -60,7 +60,7 @@ std::optional<ErrorKind> verify_run(const Options& options, Run& run, ProgramFil
   const CorrectedScan scan = scan_corrected(options, run, read, corrected, tally, proof ? &*proof : nullptr);
   run.facts.inputs.push_back(corrected.file);
   run.corrected_name = shown_name(options.verify.corrected);
-  for (const std::string& warning : other_inputs_of_header(scan.beginning, run))
+  for (const std::string& warning : other_inputs_of_header(scan.beginning, options, run))
     console.warning(run.corrected_name, 0, warning);
   refuse_replaced(paths, run.uncertainty_files);
   RunFiles files(paths, columns_of(options, run));

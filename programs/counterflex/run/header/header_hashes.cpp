@@ -48,6 +48,56 @@ std::string given(const std::string& name, const InputFile& file) {
   return fmt::format("{} (SHA-256 {}...)", name, file.sha256.substr(0, 12));
 }
 
+constexpr std::string_view line_begin = "COUNTERFLEX 1 ";
+
+/// Of `lines` those that begin with `key`, joined.
+std::string lines_with(std::string_view key, const std::vector<std::string>& lines) {
+  std::string found;
+  for (const std::string& line : lines)
+    if (line.starts_with(key)) found += (found.empty() ? "" : "; ") + line;
+  return found;
+}
+
+/// The lines of a header without their marks. Remarks of some controls have room for their beginning only.
+std::vector<std::string> header_lines(const std::string& text) {
+  std::vector<std::string> lines;
+  for (std::size_t at = text.find(line_begin); at != std::string::npos; at = text.find(line_begin, at)) {
+    at += line_begin.size();
+    std::string line = text.substr(at, text.find('\n', at) - at);
+    line.resize(line.find_last_not_of(" \r);") + 1);
+    lines.push_back(std::move(line));
+  }
+  return lines;
+}
+
+/// What the header states of work offsets, tools, forces and the temperature, and this run differently.
+void add_other_statements(const std::string& text, const Options& options, const Run& run,
+                          std::vector<std::string>& warnings) {
+  const std::vector<std::string> found = header_lines(text);
+  std::vector<std::string> own = header_of(options, run);
+  for (std::string& line : own) line.erase(0, line_begin.size());
+  const bool has_room = run.program.dialect != "fanuc_tp" && run.program.dialect != "yaskawa";
+  const auto has = [&](const std::string& line, const std::vector<std::string>& others) {
+    return std::ranges::any_of(others, [&](const std::string& other) {
+      return has_room ? other == line : other.starts_with(line) || line.starts_with(other);
+    });
+  };
+  for (const std::string_view key :
+       {"WORK ", "TEMPERATURE ", "TOOL ", "FORCE ", "NO CUTTING FORCE", "WITH FORCES TIMES "}) {
+    const auto differs = [&](const std::string& line, const std::vector<std::string>& others) {
+      return line.starts_with(key) && !has(line, others);
+    };
+    if (std::ranges::none_of(found, [&](const std::string& line) { return differs(line, own); }) &&
+        std::ranges::none_of(own, [&](const std::string& line) { return differs(line, found); }))
+      continue;
+    const std::string was = lines_with(key, found), is = lines_with(key, own);
+    warnings.push_back(
+        fmt::format("made for other conditions than those of this run: its header has {}, this run {}",
+                    was.empty() ? "no such line" : "'" + was + "'",
+                    is.empty() ? "has no such line" : "is for '" + is + "'"));
+  }
+}
+
 /// Options with which the original was read according to the header, if they differ from those of this run.
 std::string other_reading(const std::string& text, const ReadOptions& read) {
   const std::string begin = "COUNTERFLEX 1 READ WITH ";
@@ -69,7 +119,8 @@ std::string other_reading(const std::string& text, const ReadOptions& read) {
 
 }  // namespace
 
-std::vector<std::string> other_inputs_of_header(const std::string& text, const Run& run) {
+std::vector<std::string> other_inputs_of_header(const std::string& text, const Options& options,
+                                                const Run& run) {
   std::vector<std::string> warnings;
   for (const std::string& hash : hashes_of(text, "MACHINE"))
     if (!is_hash_of(hash, run.machine.file))
@@ -93,6 +144,7 @@ std::vector<std::string> other_inputs_of_header(const std::string& text, const R
                                  run.tools.file ? given(run.tools.file->path, *run.tools.file)
                                                 : "this run, which has no tool table"));
   const bool has_header = text.find("COUNTERFLEX 1 VERSION") != std::string::npos;
+  if (has_header) add_other_statements(text, options, run, warnings);
   if (std::string reading = has_header ? other_reading(text, run.read) : ""; !reading.empty())
     warnings.push_back(std::move(reading));
   if (text.find("COUNTERFLEX 1 " + std::string(only_significant_mark)) != std::string::npos &&
