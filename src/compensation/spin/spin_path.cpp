@@ -155,8 +155,9 @@ std::vector<int> best_turns(const SpinGraph& graph) {
   const std::vector<int> none(graph.stops.size(), spin_zero);
   const double programmed = choice.largest_of(none);
   if (programmed == 0) return none;
-  const double limit = choice.least_largest() + least_spin_gain * programmed;
-  return choice.least_sum(std::min(limit, programmed), programmed);
+  const double least = choice.least_largest(), gain = least_spin_gain * programmed;
+  if (least > programmed - gain) return none;
+  return choice.least_sum(std::min(least + gain, programmed - gain), programmed);
 }
 
 }  // namespace counterflex

@@ -93,3 +93,22 @@ TEST_CASE("a deviation that does not depend on the turn leaves the program as it
   graph.deviations.assign(graph.deviations.size(), 0);
   CHECK(best_turns(graph) == std::vector<int>(4, spin_zero));
 }
+
+TEST_CASE(
+    "turns that gain less than a hundredth of the largest deviation are not taken, also for a smaller mean") {
+  const auto turns_for = [](float share) {
+    SpinGraph graph;
+    for (std::size_t i = 0; i < 3; ++i) {
+      graph.places.push_back({1, i == 0 ? 0 : 0.1});
+      for (int turn = 0; turn < spin_count; ++turn) {
+        const float mean = i == 1 ? 0.2F : 1;  // of the turned tool
+        graph.deviations.push_back(1e-3F * (turn == spin_zero ? 1 : mean * share));
+      }
+      graph.stops.push_back(
+          {.linked = i > 0, .is_free = true, .most_steps = spin_count, .places_end = graph.places.size()});
+    }
+    return best_turns(graph);
+  };
+  CHECK(turns_for(0.995F) == std::vector<int>(3, spin_zero));
+  CHECK(turns_for(0.98F) != std::vector<int>(3, spin_zero));
+}
