@@ -389,6 +389,11 @@ TEST_CASE("the guard of FANUC TP, whose lines are numbered again") {
   CHECK(all_known(again.moves.back().known_start));
   CHECK(again.moves.back().may_split == program.moves.back().may_split);
   CHECK(again.left_alone.size() == program.left_alone.size());
+  for (const double half_turn : {180.0, -180.0}) {
+    guard.active.R = from_rpy(Vector3(0, 0, half_turn * deg));
+    CHECK(guarded(program, guard).find("IF (PR[100,6]<179.998 AND PR[100,6]>(-179.998)),JMP LBL[32701]") !=
+          std::string::npos);
+  }
   CHECK(reserved_for_guard("fanuc_tp", "   4:  PR[100]=LPOS ;") == "PR[100");
   CHECK(reserved_for_guard("fanuc_tp", before + behind).empty());
 }

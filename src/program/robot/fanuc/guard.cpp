@@ -54,6 +54,17 @@ void check_element(int element, double least, double most, TpLines& lines) {
       fmt::format("(PR[100,{0}]<{1} OR PR[100,{0}]>{2})", element, tp_number(least), tp_number(most)));
 }
 
+/// Angles of the control are from -180 to 180 deg: near these a range continues at the other end.
+void check_angle(int element, double angle, TpLines& lines) {
+  constexpr double turn = 360;
+  double least = angle - guarded_angle_deg, most = angle + guarded_angle_deg;
+  if (least >= -turn / 2 && most <= turn / 2) return check_element(element, least, most, lines);
+  if (least < -turn / 2) least += turn;
+  if (most > turn / 2) most -= turn;
+  lines.refuse_if(
+      fmt::format("(PR[100,{0}]<{1} AND PR[100,{0}]>{2})", element, tp_number(least), tp_number(most)));
+}
+
 void check_frame(const Guard& guard, int number, TpLines& lines) {
   lines.add(fmt::format("PR[100]=UFRAME[{}]", number));
   for (int axis = 0; axis < 3; ++axis) {
@@ -61,8 +72,7 @@ void check_frame(const Guard& guard, int number, TpLines& lines) {
     check_element(axis + 1, value - guard.window_mm, value + guard.window_mm, lines);
   }
   const Vector3 rpy_deg = to_rpy(*guard.active.R) / deg;
-  for (int i = 0; i < 3; ++i)
-    check_element(i + 4, rpy_deg[i] - guarded_angle_deg, rpy_deg[i] + guarded_angle_deg, lines);
+  for (int i = 0; i < 3; ++i) check_angle(i + 4, rpy_deg[i], lines);
 }
 
 }  // namespace
