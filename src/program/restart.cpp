@@ -14,6 +14,7 @@
 #include "program/dialect.hpp"
 #include "program/gcode/words/codes.hpp"
 #include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -35,7 +36,8 @@ enum Item : std::uint8_t {
   of_feed,
   of_speed,
   of_spindle,
-  of_coolant,
+  of_mist,
+  of_flood,
   of_axis
 };
 
@@ -210,9 +212,10 @@ void add_m(const BlockText& in, const Word& word, Effects& effects) {
   }
   if (code >= 3 && code <= 5)
     effects.set[of_spindle] = Given{name, 0};
-  else if (code >= 7 && code <= 9)
-    effects.set[of_coolant] = Given{name, 0};
-  else if (code != 0 && code != 1 && code != 19 && code != 48 && code != 60)
+  else if (code >= 7 && code <= 9) {
+    if (code != 8) effects.set[of_mist] = Given{name, 0};
+    if (code != 7) effects.set[of_flood] = Given{name, 0};
+  } else if (code != 0 && code != 1 && code != 19 && code != 48 && code != 60)
     effects.carries = name;
 }
 
@@ -251,8 +254,29 @@ void add_word(const Block& block, const BlockText& in, const Word& word, Effects
   }
 }
 
+/// The first name in a block of a Sinumerik (OVR, FGROUP, SOFT) that is not one of its own motion or text.
+std::string unfollowed_name(std::string_view text) {
+  constexpr auto of_block =
+      std::to_array<std::string_view>({"AC", "IC", "DC", "ACP", "ACN", "CR", "AR", "AP", "RP", "TURN", "ANG",
+                                       "RND", "CHF", "CHR", "FB", "SPOS", "MSG", "STOPRE"});
+  bool quoted = false;
+  for (std::size_t at = 0; at < text.size() && (quoted || text[at] != ';'); ++at) {
+    if (text[at] == '"') quoted = !quoted;
+    if (quoted || !is_letter(text[at])) continue;
+    std::string name;
+    for (; at < text.size() && (is_letter(text[at]) || is_digit(text[at]) || text[at] == '_'); ++at)
+      name += upper(text[at]);
+    --at;
+    const bool is_address = name.size() < 2 || !is_letter(name[1]);
+    if (!is_address && std::ranges::find(of_block, name) == of_block.end()) return name;
+  }
+  return {};
+}
+
 Effects effects_of(const Block& block, const BlockText& in) {
   Effects effects;
+  if (in.dialect.family == siemens_family && block.statement == Statement::none)
+    effects.carries = unfollowed_name(part(in.text, block.span));
   add_statement(block, effects);
   if (!empty(block.flow_keyword)) effects.why_none = "it has subprograms, loops, conditions or jumps";
   const bool literal = std::ranges::all_of(block.words, [](const Word& word) { return word.literal; });
@@ -360,8 +384,8 @@ struct RestartScan::State {
     }
     if (cuts && !c.has_cut) {
       for (const Item item : before_cuts) c.need(item);
-      const bool was_on = c.before[of_coolant] && !c.before[of_coolant]->word.ends_with('9');
-      if (was_on) c.need(of_coolant);
+      for (const Item coolant : {of_mist, of_flood})
+        if (c.before[coolant] && !c.before[coolant]->word.ends_with('9')) c.need(coolant);
       for (std::size_t axis = 0; axis < axes.size(); ++axis)
         if (axis < 3 || c.before[of_axis + axis]) c.need_position(axis);
       c.has_cut = true;

@@ -127,6 +127,9 @@ TEST_CASE("coolant that was on, and rotary axes in use, are needed again") {
   CHECK(lacks("T2 M6\nG0 X0 Y0\nZ5\nG1 Z-1 F50\n", wet) == "M8 of line 2, A before the first cut");
   CHECK(lacks("T2 M6\nG0 X0 Y0 A90\nM8\nZ5\nG1 Z-1 F50\n", wet) == "");
   CHECK(lacks("T2 M6\nG0 X0 Y0 A90\nZ5\nG1 Z-1 F50\n", wet + "M9\n") == "");
+  const std::string misty = "T1 M6\nM7\nM8\nG0 X0 Y0\nZ5\nG1 Z-1 F100\n";
+  CHECK(lacks("T2 M6\nM8\nG0 X0 Y0\nZ5\nG1 Z-1 F50\n", misty) == "M7 of line 2");
+  CHECK(lacks("T2 M6\nM7\nM8\nG0 X0 Y0\nZ5\nG1 Z-1 F50\n", misty) == "");
 }
 
 TEST_CASE("T may be alone in the line before M6, and a Sinumerik gives the length by D") {
@@ -139,6 +142,18 @@ TEST_CASE("T may be alone in the line before M6, and a Sinumerik gives the lengt
   CHECK(found.lines[1].missing == "");
   CHECK(lacks("T2\nM6\nG71 G90 G54\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nM30\n", mpf, "siemens") == "D1 of line 2");
   CHECK(restart_lines("G90\nT1\nG0 X0\nM6\nZ5 Y0\nG1 Z0 F9\n").lines.empty());
+}
+
+TEST_CASE("words of a Sinumerik whose effect on later blocks is not followed are named") {
+  const std::string mpf = "G71 G90 G54\nT1 D1\nM6\nG0 X0 Y0\nZ5\nG1 Z-1 F100\n",
+                    again = "T2 D1\nM6\nG71 G90 G54\nG0 X0 Y0\nZ5\nG1 Z-1 F100\nM30\n";
+  for (const std::string word : {"OVR=50", "FGROUP(X,Y)", "FFWON", "SOFT", "LIMS=3000"}) {
+    CAPTURE(word);
+    const std::string name = word.substr(0, word.find_first_of("=("));
+    CHECK(lacks(again, mpf + "N70 " + word + "\n", "siemens") == name + " of line 7");
+  }
+  for (const char* block : {"MSG(\"OVR=50\") ; SOFT\n", "G2 X10 CR=5\n", "SPOS=0\n"})
+    CHECK(lacks(again, mpf + block, "siemens") == "");
 }
 
 TEST_CASE("on a Fanuc a G43 without H takes the modal H of before") {
