@@ -102,6 +102,14 @@ std::optional<Failure> OffsetSearch::pass(const ConstantShift& shift, ShiftPlace
                                  {read, begun, solved, [](const Job&, const Compensation&) {}});
 }
 
+/// Where the numbers of an offset are zero on the control (M, m).
+Vector3 OffsetSearch::zero_of_control(const std::string& offset) const {
+  const auto& work = run_.machine.machine.work;
+  const auto known = work.find(offset);
+  const bool has_numbers = known != work.end() && known->second.shown;
+  return has_numbers ? Vector3(known->second.X_MW.p - *known->second.shown) : Vector3::Zero();
+}
+
 /// The shift of the rounded numbers, which are added to `result`.
 BestShift OffsetSearch::written(const ControlWords& control, const BestShift& best,
                                 BestOffsets& result) const {
@@ -110,7 +118,10 @@ BestShift OffsetSearch::written(const ControlWords& control, const BestShift& be
     const Pose& X_MW = offsets_[i].X_MW;
     rounded.offsets[i] = Pose{};
     if (!first_.has(i)) continue;
-    WrittenOffset offset = written_offset(control, offsets_[i].name, X_MW, best.offsets[i], freedom_.turns);
+    const Vector3 zero = zero_of_control(offsets_[i].name);
+    WrittenOffset offset =
+        written_offset(control, offsets_[i].name, {X_MW.R, X_MW.p - zero}, best.offsets[i], freedom_.turns);
+    offset.X_MW.p += zero;
     rounded.offsets[i] = offset.X_MW * inverse(X_MW);
     if (!freedom_.turns) rounded.offsets[i] = {Matrix3::Identity(), offset.X_MW.p - X_MW.p};
     BestOffsets::OfWork of{offsets_[i].name,

@@ -45,6 +45,7 @@ class OffsetSearch {
 
   std::optional<Failure> pass(const ConstantShift& shift, ShiftPlaces& found, Rest* rest,
                               Console& console) const;
+  Vector3 zero_of_control(const std::string& offset) const;
   BestShift written(const ControlWords& control, const BestShift& best, BestOffsets& result) const;
   std::vector<std::string> notes(const BestShift& best) const;
   bool is_enough(const RunTally& tally) const;

@@ -71,13 +71,15 @@ Pose placed(const ProgramFrame& frame) {
   return pose;
 }
 
-/// The pose of `frame`. Its offset is at `offset`, unless the program sets it.
-WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame) {
+/// The pose of `frame`. Its offset is at `offset`, and has there the numbers `shown` on the control (m;
+/// empty: those of the machine frame), unless the program sets it.
+WorkFrame place_frame(WorkFrame offset, const ProgramFrame& frame, const std::optional<Vector3>& shown = {}) {
   if (frame.pose_mm) offset = {frame.work_offset, Pose{frame.pose_mm->R, frame.pose_mm->p * mm}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!frame.set_mm[axis]) continue;
     const auto k = static_cast<Eigen::Index>(axis);
-    offset.X_MW.p[k] = *frame.set_mm[axis] * mm;
+    const double from_shown = shown ? offset.X_MW.p[k] - (*shown)[k] : 0;
+    offset.X_MW.p[k] = *frame.set_mm[axis] * mm + from_shown;
     offset.datum_shift[k] = 0;
     if (offset.touched) offset.touched->axes[k] = 0;
   }
@@ -138,7 +140,8 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
     auto offset = offsets.find(selected);
     if (offset == offsets.end())
       offset = offsets.emplace(selected, place_offset(machine, touching, machine_file, selected)).first;
-    place.frames[i] = place_frame(offset->second, program.frames[i]);
+    place.frames[i] =
+        place_frame(offset->second, program.frames[i], machine.work.at(offset->second.name).shown);
   }
   place.assumption = start_warning(program);
   return place;
@@ -146,9 +149,9 @@ WorkPlace place_work(const Machine& machine, const Model& model, const std::stri
 
 WorkPlace place_work(const std::vector<std::string>& given, const Overview& program) {
   WorkPlace place = in_machine_frame(program);
-  std::map<std::string, Pose> table;
+  std::map<std::string, WorkOffset> table;
   for (const std::string& text : given)
-    if (const WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = work.place.X_MW;
+    if (WorkText work = work_of(text); !work.offset.empty()) table[work.offset] = std::move(work.place);
   if (table.empty()) return place;
   for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
     if (program.frame_lines[i] == 0) continue;
@@ -160,7 +163,7 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
       throw InputError(ErrorKind::usage, {},
                        fmt::format("--work does not give {}, which the program {}; it gives {}", name,
                                    selected.empty() ? "starts with" : "selects", names(table)));
-    place.frames[i] = place_frame({name, found->second}, program.frames[i]);
+    place.frames[i] = place_frame({name, found->second.X_MW}, program.frames[i], found->second.shown);
   }
   place.assumption = start_warning(program);
   return place;
@@ -168,13 +171,15 @@ WorkPlace place_work(const std::vector<std::string>& given, const Overview& prog
 
 std::optional<Pose> known_frame(const Machine& machine, const ProgramFrame& frame) {
   WorkFrame offset;
+  std::optional<Vector3> shown;
   const bool is_in_table = !frame.pose_mm && !frame.work_offset.empty() && !machine.work.empty();
   if (is_in_table && !machine.work_is_machine_frame) {
     const auto found = machine.work.find(frame.work_offset);
     if (found == machine.work.end() || found->second.datum.touched_at) return std::nullopt;
     offset.X_MW = found->second.X_MW;
+    shown = found->second.shown;
   }
-  return place_frame(offset, frame).X_MW;
+  return place_frame(offset, frame, shown).X_MW;
 }
 
 Pose pose_of_offset(const WorkFrame& frame, const ProgramFrame& in_program) {
