@@ -38,7 +38,6 @@ constexpr auto apt_motionless = std::to_array<std::string_view>({"PARTNO",
                                                                  "SEQNO",
                                                                  "PREFUN",
                                                                  "AUXFUN",
-                                                                 "OPSKIP",
                                                                  "DISPLAY",
                                                                  "CLEARP",
                                                                  "TMARK",
@@ -100,29 +99,46 @@ void set_feed(AptReading& r) {
   if (r.feed_per_turn_mm) state.feed_mm_min = *r.feed_per_turn_mm * state.spindle_rpm;
 }
 
-/// FEDRAT/250, FEDRAT/250,MMPM, FEDRAT/IPM,10, FEDRAT/0.1,MMPR: without a unit it is per minute.
+/// Whether each parameter is a plain number or one of `words`.
+bool has_only(const AptReading& r, const AptStatement& statement, std::span<const std::string_view> words) {
+  return std::ranges::all_of(statement.parameters, [&](Span parameter) {
+    return plain(r, parameter) || is_among(apt_word(part(r.robot.program.text, parameter)), words);
+  });
+}
+
+/// FEDRAT/250, FEDRAT/250,MMPM, FEDRAT/IPM,10, FEDRAT/0.1,MMPR: without a unit it is per minute. With another
+/// word it is unknown.
 void read_feed(AptReading& r, const AptStatement& statement) {
   constexpr auto per_turn = std::to_array<std::string_view>({"MMPR", "IPR", "PERREV"});
   constexpr auto metric = std::to_array<std::string_view>({"MMPM", "MMPR"});
   constexpr auto inch_units = std::to_array<std::string_view>({"IPM", "IPR"});
+  constexpr auto units = std::to_array<std::string_view>({"MMPM", "MMPR", "IPM", "IPR", "PERMIN", "PERREV"});
   const double program_mm = mm_per(r.unit.value_or(LengthUnit::millimetres));
   const double unit_mm = has_word(r, statement, metric)       ? 1
                          : has_word(r, statement, inch_units) ? mm_per(LengthUnit::inches)
                                                               : program_mm;
   const auto number = first_number(r, statement);
-  const bool is_known = number && *number > 0;
+  const bool is_known = number && *number > 0 && has_only(r, statement, units) && !r.may_skip;
   r.feed_per_turn_mm.reset();
   r.robot.state.feed_mm_min = is_known ? *number * unit_mm : 0;
   if (is_known && has_word(r, statement, per_turn)) r.feed_per_turn_mm = *number * unit_mm;
   set_feed(r);
 }
 
+/// SPINDL/2000,CLW, SPINDL/RPM,2000,CLW: the first number, if no other word is before it. SPINDL/ON and
+/// SPINDL/CLW keep the speed. Others leave it unknown.
 void read_spindle(AptReading& r, const AptStatement& statement) {
   constexpr auto of_surface = std::to_array<std::string_view>({"SFM", "SMM", "OFF", "ORIENT", "LOCK"});
-  if (has_word(r, statement, of_surface))
-    r.robot.state.spindle_rpm = 0;
-  else if (const auto number = first_number(r, statement))
-    r.robot.state.spindle_rpm = *number;
+  constexpr auto starting = std::to_array<std::string_view>({"ON", "RPM", "CLW", "CCLW"});
+  double& speed = r.robot.state.spindle_rpm;
+  const auto& parameters = statement.parameters;
+  const auto first = std::ranges::find_if(parameters, [&](Span parameter) {
+    return !is_among(apt_word(part(r.robot.program.text, parameter)), starting);
+  });
+  if (has_word(r, statement, of_surface) || r.may_skip)
+    speed = 0;
+  else if (first != parameters.end())
+    speed = plain(r, *first).value_or(0);
   set_feed(r);
 }
 
@@ -191,6 +207,8 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
     select_tool(r, statement);
   else if (head == "CSYS" || head == "MSYS" || head == "ORIGIN")
     select_system(r, line, statement);
+  else if (head == "OPSKIP")
+    r.may_skip = is_switched_on(r, statement);
   else if (head == "TLAXIS")
     read_tool_axis(r, line, statement);
   else if (head == "CUTCOM")

@@ -20,6 +20,7 @@ struct AptReading {
   std::optional<AptCircle> circle{};  ///< CIRCLE/, until a point that is not on it
   bool in_cycle = false;              ///< CYCLE/: the points are holes
   bool in_cutcom = false;             ///< CUTCOM/: the control shifts the points
+  bool may_skip = false;              ///< OPSKIP/ON: the control may skip the statements
   std::optional<double> feed_per_turn_mm{};
 };
 

@@ -203,6 +203,23 @@ TEST_CASE("feeds per turn need the speed of the spindle, and rapid holds for one
   CHECK(program.moves[4].feed_mm_min == 0);
 }
 
+TEST_CASE(
+    "a feed or a speed whose value is not a number, has an unknown unit, or may be skipped is unknown") {
+  const auto last = [](const std::string& lines) {
+    return read_apt("UNITS/MM\nSPINDL/1000,CLW\nFEDRAT/200,MMPM\nGOTO/0,0,5\n" + lines + "GOTO/0,0,4\n")
+        .moves.back();
+  };
+  CHECK(last("SPINDL/SPEED,CLW\n").spindle_rpm == 0);
+  CHECK(last("SPINDL/OFF\n").spindle_rpm == 0);
+  CHECK(last("SPINDL/ON\n").spindle_rpm == 1000);
+  CHECK(last("SPINDL/CCLW\n").spindle_rpm == 1000);
+  CHECK(last("SPINDL/RPM,3000,CLW\n").spindle_rpm == 3000);
+  CHECK(last("FEDRAT/5,INVERS\n").feed_mm_min == 0);
+  CHECK(last("FEDRAT/0.1,PERREV\n").feed_mm_min == doctest::Approx(100));
+  CHECK(last("OPSKIP/ON\nSPINDL/3000,CLW\nFEDRAT/100,MMPM\nOPSKIP/OFF\n").spindle_rpm == 0);
+  CHECK(last("OPSKIP/ON\nSPINDL/3000,CLW\nFEDRAT/100,MMPM\nOPSKIP/OFF\n").feed_mm_min == 0);
+}
+
 TEST_CASE("the points on the circle of CIRCLE/ are not followed: its centre would not be corrected") {
   const std::string text =
       "UNITS/MM\n"
