@@ -22,7 +22,10 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
   codes.retracts = codes.retracts || code == 140;
   codes.ends = codes.ends || code == 2 || code == 30;
   codes.acts_after = codes.acts_after || std::find(after.begin(), after.end(), code) != after.end();
-  if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed_mm_min = 0;
+  if (code == 136 || code == 137) r.state.feed_per_turn = code == 136, r.state.feed = {};
+  if (code == 103) r.state.plunges_slower = find_word(r.words, "F") != nullptr;
+  if (code == 3 || code == 4 || code == 13 || code == 14) r.state.spindle_off = false;
+  codes.stops_spindle = codes.stops_spindle || code == 5 || code == 19;
   if (code == 128 || code == 114 || code == 144)
     r.state.displacements[128] = fmt::format("M{} moves the linear axes with the rotary axes", code);
   if (code == 129 || code == 115 || code == 145) r.state.displacements.erase(128);

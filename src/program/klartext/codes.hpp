@@ -11,6 +11,7 @@ struct KlartextCodes {
   bool calls_each = false;        ///< M89
   bool acts_after = false;        ///< stops, spindle off, coolant off
   bool ends = false;              ///< M2, M30
+  bool stops_spindle = false;     ///< at the end of the block
   bool retracts = false;          ///< M140: retracts along the tool at the end of the block
 };
 

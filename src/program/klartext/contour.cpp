@@ -55,6 +55,7 @@ bool has_plain_point(const KlartextReading& r) {
 }
 
 void add_unfollowed_approach(const KlartextBlock& block, KlartextReading& r) {
+  forget_klartext_speeds(r.state);
   add_unfollowed_move(block, r, block.head + " needs X and Y as plain numbers; the contour is not corrected");
   r.state.displacements.erase(0);
   if (block.head == "APPR") r.state.displacements[0] = "a contour entered by this APPR is not corrected";

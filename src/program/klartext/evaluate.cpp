@@ -90,6 +90,15 @@ bool read_words(const KlartextBlock& block, KlartextReading& r) {
   return true;
 }
 
+std::optional<double> klartext_value(const KlartextBlock& block, KlartextReading& r,
+                                     std::string_view squeezed_text) {
+  const bool expression = squeezed_text.find('Q') != std::string_view::npos;
+  if (expression && (!r.options.evaluate || may_skip_or_repeat(r))) return std::nullopt;
+  const std::optional<double> value = value_of(r, std::string(squeezed_text));
+  if (expression && value) count_evaluated(r.program, block.line);
+  return value;
+}
+
 void take_parameter(const KlartextBlock& block, KlartextReading& r) {
   if (!r.options.evaluate) return;
   std::string text = block.head == "Q" ? "Q" : "";

@@ -215,16 +215,28 @@ double klartext_length_mm(const KlartextReading& r, const KlartextWord& word) {
   return word.value * mm_per_unit(r);
 }
 
-/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds per tooth are unknown.
+/// F: mm/min, in inch programs tenths of an inch/min; expressions and feeds per tooth are unknown. F behind
+/// M103, M128 or M140 belongs to that code.
 void read_klartext_feed(KlartextReading& r) {
   KlartextState& state = r.state;
   const double tenths = state.unit == LengthUnit::inches && state.feed_per_turn == false ? 0.1 : 1.0;
+  const KlartextFeed& of_tool = state.tool_feed;
+  bool of_code = false;
   for (const KlartextWord& word : r.words) {
-    if (word.key == "F") state.feed_mm_min = word.literal ? word.value * mm_per_unit(r) * tenths : 0;
-    if (word.key == "FAUTO") state.feed_mm_min = state.tool_feed_mm_min;
-    if (word.key == "FU") state.feed_mm_min = word.value * mm_per_unit(r) * state.spindle_rpm;
-    if (word.key == "FZ" || word.key == "FT") state.feed_mm_min = 0;
+    if (word.key == "M") of_code = of_code || word.value == 103 || word.value == 128 || word.value == 140;
+    if (word.key == "F" && !of_code)
+      state.feed = {word.literal && state.feed_per_turn ? word.value * mm_per_unit(r) * tenths : 0,
+                    state.feed_per_turn == true};
+    if (word.key == "FAUTO")
+      state.feed = of_tool.per_turn || state.feed_per_turn == false ? of_tool : KlartextFeed{};
+    if (word.key == "FU") state.feed = {word.literal ? word.value * mm_per_unit(r) : 0, true};
+    if (word.key == "FZ" || word.key == "FT") state.feed = {};
   }
+}
+
+void forget_klartext_speeds(KlartextState& state) {
+  state.feed = state.tool_feed = {};
+  state.spindle_rpm = 0;
 }
 
 Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
@@ -241,9 +253,9 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.moved_only_by_program[axis] = state.moved_by_machine[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;
-  if (state.feed_per_turn)
-    move.feed_mm_min = state.feed_mm_min * (*state.feed_per_turn ? state.spindle_rpm : 1.0);
-  move.spindle_rpm = state.spindle_rpm;
+  move.spindle_rpm = state.spindle_off ? 0 : state.spindle_rpm;
+  move.feed_mm_min = state.feed.mm * (state.feed.per_turn ? move.spindle_rpm : 1.0);
+  if (state.plunges_slower) move.feed_mm_min = 0;
   if (!empty(block.number)) {
     long number = 0;
     for (const char c : part(r.program.text, block.number).substr(0, 9)) number = 10 * number + (c - '0');
@@ -265,9 +277,11 @@ void move_by_machine(KlartextReading& r, std::size_t axis) {
 }
 
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
-  if (!read_words(block, r))
+  if (!read_words(block, r)) {
+    forget_klartext_speeds(r.state);
     return add_unfollowed_move(block, r,
                                fmt::format("the block {} has words that are not supported", block.head));
+  }
   const KlartextCodes codes = read_klartext_m(block, r);
   read_klartext_feed(r);
   watch_rotary_axes(r);
@@ -286,18 +300,23 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     r.state.after_contour = true;
   }
   if (codes.retracts) apply_retract(block, r);
+  if (codes.stops_spindle) r.state.spindle_off = true;
   r.ended = r.ended || (codes.ends && !may_not_run(block, r));
 }
 
 void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   KlartextBlock codes = block;
   codes.head.clear();
-  if (!read_words(codes, r))
+  if (!read_words(codes, r)) {
+    forget_klartext_speeds(r.state);
     return add_unfollowed_move(block, r, "the block M has words that are not supported");
+  }
   const KlartextCodes found = read_klartext_m(block, r);
+  read_klartext_feed(r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not supported");
   if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
   if (found.retracts) apply_retract(block, r);
+  if (found.stops_spindle) r.state.spindle_off = true;
   r.ended = r.ended || (found.ends && !may_not_run(block, r));
 }
 

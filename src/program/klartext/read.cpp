@@ -37,19 +37,48 @@ void read_begin(const KlartextBlock& block, KlartextReading& r) {
   if (rest.ends_with("INCH")) r.state.unit = LengthUnit::inches;
 }
 
+/// F, FU or FZ of TOOL CALL, behind its "F": "500", "U0.1", "Z0.02", "Q3".
+KlartextFeed feed_of_tool_call(const KlartextBlock& block, KlartextReading& r, std::string_view text) {
+  const bool per_turn = text.starts_with('U'), inches = r.state.unit == LengthUnit::inches;
+  if (per_turn) text.remove_prefix(1);
+  const double value = std::max(klartext_value(block, r, text).value_or(0), 0.0);
+  if (per_turn) return {value * mm_per(inches ? LengthUnit::inches : LengthUnit::millimetres), true};
+  // Whether F is per minute or per turn under M136 is not known.
+  return {r.state.feed_per_turn == false ? value * (inches ? 2.54 : 1.0) : 0, false};
+}
+
+/// S and F of TOOL CALL: a word begins with its letter and ends before the next letter that is not a Q
+/// parameter's. "S(VC=120)" is a cutting speed, whose spindle speed is unknown.
+void read_speeds_of_tool_call(const KlartextBlock& block, KlartextReading& r, std::string_view rest) {
+  constexpr std::string_view letters = "ABCDEFGHIJKLMNOPQRSTUVWXYZ";
+  while (!rest.empty()) {
+    std::size_t key = std::min(rest.find_first_not_of(letters), rest.size());
+    if (const std::size_t q = rest.find('Q'); q < key) key = q;  // SQ7, FUQ3, SQL2
+    std::size_t end = std::min(rest.find_first_not_of(letters, key), rest.size());
+    end = std::min(rest.find_first_of(letters, end), rest.size());
+    const std::string_view name = rest.substr(0, key);
+    if (name == "S") r.state.spindle_rpm = klartext_value(block, r, rest.substr(1, end - 1)).value_or(0);
+    if (name.starts_with('F'))
+      r.state.tool_feed = r.state.feed = feed_of_tool_call(block, r, rest.substr(1, end - 1));
+    rest.remove_prefix(end);
+  }
+}
+
+/// Number of characters of the tool at the begin of `rest`: 5, "MILL", Q5, QS5.
+std::size_t size_of_tool(std::string_view rest) {
+  constexpr std::string_view digits = "0123456789.";
+  if (rest.starts_with('"')) return std::min(rest.find('"', 1), rest.size() - 1) + 1;
+  const std::size_t number = rest.starts_with('Q') ? rest.find_first_of(digits) : 0;
+  return std::min(rest.find_first_not_of(digits, number), rest.size());
+}
+
 /// `TOOL CALL 5 Z S3000 F500`, `TOOL CALL "MILL" Z S3000`, and `TOOL CALL S500`, which sets only the speed.
 void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   std::string rest = squeezed(after_head(r.program.text, block));
   if (!rest.starts_with("CALL")) return;
+  for (std::size_t i = 1; i < block.parts.size(); ++i) rest += squeezed(part(r.program.text, block.parts[i]));
   rest.erase(0, 4);
-  std::size_t end = 0;
-  if (rest.starts_with('"')) {
-    end = rest.find('"', 1) == std::string::npos ? rest.size() : rest.find('"', 1) + 1;
-  } else if (rest.starts_with('Q')) {
-    end = std::min(rest.find_first_of("XYZ"), rest.size());
-  } else {
-    end = std::min(rest.find_first_not_of("0123456789."), rest.size());
-  }
+  const std::size_t end = size_of_tool(rest);
   KlartextState& state = r.state;
   if (end > 0) {
     state.tool = 0;
@@ -61,9 +90,8 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
     rest.erase(0, end);
     if (!rest.empty() && rest[0] >= 'U' && rest[0] <= 'Z') state.tool_along_z = rest[0] == 'Z';
   }
-  if (const auto speed = number_behind(rest, 'S')) state.spindle_rpm = *speed;
-  const double unit = state.unit == LengthUnit::inches ? 2.54 : 1.0;
-  if (const auto feed = number_behind(rest, 'F')) state.tool_feed_mm_min = state.feed_mm_min = *feed * unit;
+  if (!rest.empty() && rest[0] >= 'U' && rest[0] <= 'Z') rest.erase(0, 1);
+  read_speeds_of_tool_call(block, r, rest);
 }
 
 /// A corner by RND or CHF between the end of one move and the beginning of the next, which lie in one plane.
@@ -88,6 +116,7 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
   else if (squeezed(after_head(r.program.text, block)).starts_with("LBL"))
     why += " (--expand-subprograms replaces the call by its text)";
   add_unfollowed_move(block, r, why);
+  forget_klartext_speeds(r.state);
   add_remark(r.program, line_of_file(r.program.expansion, block.line),
              "assumed: called programs do not change the datum, the coordinates and the tool");
 }
@@ -210,6 +239,7 @@ void read_known_or_not(const KlartextBlock& block, KlartextReading& r) {
                                   [&](const KnownStatement& s) { return s.head == block.head; });
   if (known != statement_readers.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
+  forget_klartext_speeds(r.state);
   add_unfollowed_move(block, r,
                       fmt::format("{} is not supported", block.head.empty() ? "the block" : block.head));
 }

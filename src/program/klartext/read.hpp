@@ -32,6 +32,14 @@ struct KlartextSurface {
   bool repeatable = true;  ///< repeating that definition sets no parameter that the program has changed since
 };
 
+/// F: mm/min, or mm per turn; 0: unknown.
+struct KlartextFeed {
+  double mm = 0;
+  bool per_turn = false;  ///< FU, or F under M136
+
+  bool operator==(const KlartextFeed&) const = default;
+};
+
 /// The modal state of a control.
 struct KlartextState {
   std::optional<LengthUnit> unit;
@@ -39,10 +47,11 @@ struct KlartextState {
   /// Moves read before the machine moved the axis by itself, plus one.
   std::array<std::size_t, 3> moved_by_machine{};
   Vector3 position_mm = Vector3::Zero();
-  double feed_mm_min = 0;
-  double tool_feed_mm_min = 0;                ///< F of TOOL CALL, for FAUTO
-  std::optional<bool> feed_per_turn = false;  ///< M136: `feed_mm_min` is mm per turn; empty: unknown
-  double spindle_rpm = 0;
+  KlartextFeed feed, tool_feed;               ///< that of TOOL CALL is for FAUTO
+  std::optional<bool> feed_per_turn = false;  ///< M136; empty: unknown
+  bool plunges_slower = false;                ///< M103 F
+  double spindle_rpm = 0;                     ///< 0: unknown
+  bool spindle_off = false;                   ///< behind M5, or perhaps
   long tool = 0;
   bool tool_along_z = true;
   std::optional<KlartextPole> pole;
@@ -96,6 +105,11 @@ void read_statement(const KlartextBlock& block, KlartextReading& reading);
 /// unknown. Throws `InputError` as `lex_klartext_words`.
 bool read_words(const KlartextBlock& block, KlartextReading& reading);
 
+/// The value of a number or, with ReadOptions::evaluate, of a Q parameter that is known: `squeezed_text` is
+/// all of it. Empty if it is unknown.
+std::optional<double> klartext_value(const KlartextBlock& block, KlartextReading& reading,
+                                     std::string_view squeezed_text);
+
 /// Stores the assignment of FN 0 to FN 4 or "Q1 =". An unknown value makes the parameter unknown.
 void take_parameter(const KlartextBlock& block, KlartextReading& reading);
 
@@ -136,6 +150,9 @@ void follow_contour(const KlartextBlock& block, KlartextReading& reading, Move& 
 
 /// F of the reading's words.
 void read_klartext_feed(KlartextReading& reading);
+
+/// F and S are unknown until a word gives them.
+void forget_klartext_speeds(KlartextState& state);
 
 /// The length of a word (mm).
 double klartext_length_mm(const KlartextReading& reading, const KlartextWord& word);

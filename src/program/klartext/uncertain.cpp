@@ -18,10 +18,12 @@ void mark_axes_unknown(const KlartextState& before, KlartextState& now) {
 void mark_tool_unknown(const KlartextState& before, KlartextState& now) {
   if (now.tool != before.tool) now.tool = 0;
   now.tool_along_z = now.tool_along_z && before.tool_along_z;
-  if (now.feed_mm_min != before.feed_mm_min) now.feed_mm_min = 0;
+  if (now.feed != before.feed) now.feed = {};
+  if (now.tool_feed != before.tool_feed) now.tool_feed = {};
   if (now.feed_per_turn != before.feed_per_turn) now.feed_per_turn.reset();
-  if (now.tool_feed_mm_min != before.tool_feed_mm_min) now.tool_feed_mm_min = 0;
   if (now.spindle_rpm != before.spindle_rpm) now.spindle_rpm = 0;
+  now.plunges_slower = now.plunges_slower || before.plunges_slower;
+  now.spindle_off = now.spindle_off || before.spindle_off;
 }
 
 /// The next polar coordinates must not be relative to those of the block.
