@@ -181,7 +181,8 @@ void add_g(const Block& block, const BlockText& in, const Word& word, Effects& e
   if (item == of_motion) effects.motion = code->action;
   if (item)
     effects.set[*item] = Given{name, 0};
-  else if (code->action == Action::state || code->action == Action::smooth)
+  else if (code->action == Action::state || code->action == Action::spindle_speed ||
+           code->action == Action::smooth)
     effects.codes[tenths] = name;
 }
 

@@ -24,6 +24,18 @@ bool counts_from_position(const Block& block, const Reading& r) {
   return relative;
 }
 
+void evaluate_word(Word& word, bool relative, const Block& block, Reading& r) {
+  // Sinumerik and shop controls may set the variable before or after they read it in the same block.
+  const bool in_order = !r.dialect.sinumerik_words && !r.dialect.macro_words;
+  if (word.literal || (!in_order && !block.assignments.empty())) return;
+  const std::optional<double> value = value_in(r, word.number);
+  if (!value || ((relative || word.mode == DistanceMode::relative) && has_too_many_digits(*value))) return;
+  word.literal = word.point = true;
+  word.value = *value;
+  word.decimals = 0;
+  count_evaluated(r.program, block.line);
+}
+
 }  // namespace
 
 bool has_too_many_digits(double value) {
@@ -39,18 +51,8 @@ void count_evaluated(Program& program, int line) {
 void evaluate_words(Block& block, Reading& r) {
   if (!r.options.evaluate || !runs_once(r)) return;
   const bool relative = counts_from_position(block, r);
-  for (Word& word : block.words) {
-    // Sinumerik and shop controls may set the variable before or after they read it in the same block.
-    const bool in_order = !r.dialect.sinumerik_words && !r.dialect.macro_words;
-    if (word.literal || (!in_order && !block.assignments.empty())) continue;
-    const std::optional<double> value = value_in(r, word.number);
-    if (!value || ((relative || word.mode == DistanceMode::relative) && has_too_many_digits(*value)))
-      continue;
-    word.literal = word.point = true;
-    word.value = *value;
-    word.decimals = 0;
-    count_evaluated(r.program, block.line);
-  }
+  for (Word& word : block.words) evaluate_word(word, relative, block, r);
+  for (SpeedWord& word : block.speed_words) evaluate_word(word.value, false, block, r);
 }
 
 void take_assignments(const Block& block, Reading& r) {

@@ -38,12 +38,22 @@ std::uint16_t different_shifts(const Dialect& dialect, const ModalState& a, cons
   return found;
 }
 
+/// Feed and speed of the spindle that differ are unknown.
+void mark_speeds_unknown(const ModalState& before, ModalState& now) {
+  if (now.feed != before.feed || now.feed_unit != before.feed_unit) now.feed = 0;
+  if (now.spindle_rpm != before.spindle_rpm) now.spindle_rpm = 0;
+  if (now.feed_share != before.feed_share) now.feed_share = 0;
+  if (now.main_spindle != before.main_spindle) now.main_spindle.reset();
+  now.surface_speed = now.surface_speed || before.surface_speed;
+  now.spindle_off = now.spindle_off || before.spindle_off;
+}
+
 /// Modal states that may have any value at the begin of a subprogram.
 void forget_state(ModalState& state) {
   state.known.fill(false);
   state.unknown_modes = all_unknown_modes;
   state.displaced = 0;
-  state.feed = 0;
+  forget_speeds(state);
 }
 
 void open_body(Reading& r, std::string name) {
@@ -187,6 +197,7 @@ void return_from_call(Reading& r) {
 void mark_differences_unknown(const Dialect& dialect, const ModalState& before, ModalState& now) {
   now.level_is_stated = now.level_is_stated && before.level_is_stated;
   now.unknown_modes |= differences(before, now);
+  mark_speeds_unknown(before, now);
   now.displaced |= before.displaced;
   now.displaced |= different_shifts(dialect, before, now);
   now.offsets_set |= before.offsets_set;

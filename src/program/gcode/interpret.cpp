@@ -14,6 +14,7 @@
 #include "program/gcode/remarks.hpp"
 #include "program/gcode/words/modal_words.hpp"
 #include "program/siemens/cycles.hpp"
+#include "program/siemens/speeds.hpp"
 #include "program/siemens/statements.hpp"
 #include "program/text/force_comment.hpp"
 #include "program/text/scanner.hpp"
@@ -170,17 +171,34 @@ void end_unknown_cutter(Reading& r) {
     r.state.unknown_modes &= static_cast<std::uint16_t>(~unknown_cutter);
 }
 
+bool has_m(const SortedBlock& sorted, std::initializer_list<int> codes) {
+  return std::ranges::any_of(
+      sorted.m, [&](const FoundM& m) { return std::ranges::find(codes, m.code) != codes.end(); });
+}
+
+/// M3, M4 and M5. M13 and M14 of some controls are M3 and M4 with coolant.
+void start_spindle(Reading& r) {
+  if (has_m(r.sorted, {3, 4, 13, 14})) r.state.spindle_off = false;
+}
+
+/// M19 orients the spindle.
+void stop_spindle(Reading& r) {
+  if (has_m(r.sorted, {5, 19})) r.state.spindle_off = true;
+}
+
 /// In the order in which controls execute them.
 void apply_codes(const Block& block, Reading& r) {
   apply_feed_and_tool(r);
+  start_spindle(r);
   end_unknown_cutter(r);
   apply_modes(block, r);
   apply_cutter(r);
   apply_work_offset(block, r);
   apply_tool_length(block, r);
   apply_displacements(block, r);
+  if ((r.state.displaced & modal_macro) != 0) forget_speeds(r.state);  // F and S of G66 are arguments
   apply_set_data(block, r);
-  if (r.sorted.has(MAction::restore)) r.state.unknown_modes = all_unknown_modes;
+  if (r.sorted.has(MAction::restore)) r.state.unknown_modes = all_unknown_modes, forget_speeds(r.state);
   remark_machine_codes(block, r);
 }
 
@@ -203,7 +221,6 @@ Context context_of(const Reading& r) {
 void apply_words(const Block& block, Reading& r) {
   r.corner = block.corner;
   r.angle = block.angle;
-  r.own_feed = block.own_feed;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
   apply_parameter(block, r);
@@ -215,6 +232,7 @@ void apply_words(const Block& block, Reading& r) {
     apply_tool_length(block, r);
     watch_other_axes(block, r);
   }
+  apply_speed_words(block, r);
   if (r.dialect.sinumerik_words) apply_tool_edge(r);
   const std::size_t moves = r.program.moves.size();
   if (r.sorted.unknown_code)
@@ -226,6 +244,8 @@ void apply_words(const Block& block, Reading& r) {
   if (r.program.moves.size() > moves) join_contour(r);
   refuse_beside_orientation(block, r);
   if (r.sorted.has(MAction::retract)) apply_retract(block, r);
+  stop_spindle(r);
+  r.own_feed.reset();
 }
 
 void read_words(const Block& block, Reading& r) {
@@ -256,7 +276,8 @@ void read_with_own_modes(const Block& block, Reading& r) {
 void read_statement(const Block& block, Reading& r) {
   ++r.program.block_count;
   begin_statement(block, r);
-  const bool words = !block.words.empty() && has_words_of_its_own(block, r);
+  const bool words = (!block.words.empty() || !block.speed_words.empty()) && has_words_of_its_own(block, r);
+  if (!words) forget_unread_speeds(block, r.state);
   if (words) read_with_own_modes(block, r);
   end_statement(block, r);
   if (words && empty(block.block_delete)) end_program(r);
@@ -279,7 +300,7 @@ void interpret(const Block& block, Reading& r) {
            "words are not allowed before a condition, a loop or a call");
   }
   if (block.statement != Statement::none) return read_statement(block, r);
-  if (block.words.empty()) return;
+  if (block.words.empty() && block.speed_words.empty()) return;
   ++r.program.block_count;
   read_with_own_modes(block, r);
   if (empty(block.block_delete)) end_program(r);

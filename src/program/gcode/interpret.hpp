@@ -41,7 +41,7 @@ struct Reading {
   const Outline& outline;
   ModalState state{};
   SortedBlock sorted{};
-  bool own_feed = false;                 ///< of the block, as in Block
+  std::optional<double> own_feed{};      ///< FB=, of the block alone; 0: unknown
   bool sets_tool_length = false;         ///< the block does
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block only; overrides the modal state
   /// X=IC(5) beside Y5: a bit for each axis whose word is a difference from the start.

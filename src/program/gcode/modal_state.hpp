@@ -83,12 +83,16 @@ struct ModalState {
   bool turns_tool = false;  ///< a word of A, B or C was read as the tool's orientation
   std::array<bool, 3> known_angles{};
   Vector3 angles_deg = Vector3::Zero();  ///< A, B, C
-  double feed = 0;                       ///< as programmed
+  double feed = 0;                       ///< as programmed; 0: unknown
   std::optional<LengthUnit> feed_unit;   ///< the unit when it was programmed
   FeedUnit feed_mode = FeedUnit::per_minute;
-  double spindle_rpm = 0;
-  int normal = 2;         ///< axis normal to the plane
-  bool relative = false;  ///< G91
+  double spindle_rpm = 0;            ///< 0: unknown
+  bool surface_speed = false;        ///< G96: S is a cutting speed
+  bool spindle_off = false;          ///< behind M5, or perhaps
+  double feed_share = 1;             ///< OVR= of a Sinumerik; 0: unknown
+  std::optional<long> main_spindle;  ///< by SETMS; empty: unknown
+  int normal = 2;                    ///< axis normal to the plane
+  bool relative = false;             ///< G91
   bool absolute_centres = false;
   bool returns_to_retract = false;  ///< G99
   bool level_is_stated = false;     ///< G98 or G99 was read
@@ -110,5 +114,10 @@ struct ModalState {
   CutterSide cutter_side = CutterSide::none;  ///< of the contour, if it is in the plane X Y
   bool beside_contour = false;  ///< in a contour: a move across has brought the cutter to its side
 };
+
+/// F and S are unknown until a word gives them.
+inline void forget_speeds(ModalState& state) {
+  state.feed = state.spindle_rpm = 0;
+}
 
 }  // namespace counterflex

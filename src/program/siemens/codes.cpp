@@ -59,7 +59,7 @@ constexpr std::array siemens_codes{
     GCode{940, Action::feed_per_minute, CodeGroup::feed_mode},
     GCode{950, Action::feed_per_turn, CodeGroup::feed_mode},
     GCode{960, Action::surface_speed, CodeGroup::spindle},
-    GCode{970, Action::state, CodeGroup::spindle},
+    GCode{970, Action::spindle_speed, CodeGroup::spindle},
     GCode{1100, Action::own_way},
     GCode{1110, Action::own_way},
     GCode{1120, Action::own_way},
@@ -97,10 +97,10 @@ constexpr std::array siemens_codes{
     GCode{7000, Action::inches, CodeGroup::unit},
     GCode{7100, Action::millimetres, CodeGroup::unit},
     GCode{9610, Action::surface_speed, CodeGroup::spindle},
-    GCode{9620, Action::state, CodeGroup::spindle},
-    GCode{9710, Action::state, CodeGroup::spindle},
-    GCode{9720, Action::state, CodeGroup::spindle},
-    GCode{9730, Action::state, CodeGroup::spindle},
+    GCode{9620, Action::surface_speed, CodeGroup::spindle},
+    GCode{9710, Action::spindle_speed, CodeGroup::spindle},
+    GCode{9720, Action::spindle_speed, CodeGroup::spindle},
+    GCode{9730, Action::spindle_speed, CodeGroup::spindle},
 };
 
 /// G505 to G599.

@@ -111,7 +111,7 @@ void skip_harmless(Scanner& s, std::string_view name) {
   if (is_word(name, "DEFINE") || is_word(name, "EXTERN") || is_word(name, "PROC") ||
       is_word(name.substr(0, 4), "GOTO") || is_word(name, "CASE"))
     return skip_siemens_rest(s);
-  s.block.own_feed = s.block.own_feed || is_word(name, "FB");
+  if (is_speed_name(name)) return take_speed_word(s, name.size());
   s.at += name.size();
   s.skip_blanks();
   if (s.peek() == '(' || s.peek() == '[') skip_siemens_value(s), s.skip_blanks();
@@ -128,13 +128,15 @@ bool moves_to_machine_position(const Block& block) {
   });
 }
 
-/// Letters of words with a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=".
+/// Letters of words with a number of their own before '=': "R1=", "M3=", "S2=", and axes "X1=", "A3=". M and
+/// S have the number of a spindle.
 void skip_numbered_assignment(Scanner& s, std::string_view name) {
   const char letter = upper(name[0]);
   if (letter != 'R' && may_move(letter) && s.block.statement != Statement::curve &&
       !moves_to_machine_position(s.block))
     return state(s, Statement::call);
   s.block.assigns = true;
+  if (letter == 'M' || letter == 'S') return take_speed_word(s, name.size());
   const std::size_t begin = s.at;
   s.at += name.size();
   while (s.peek() != '=') ++s.at;
@@ -183,9 +185,8 @@ void lex_letter(Scanner& s) {
   read_named_word(s, letter, 1);
   Word& word = s.block.words[words];
   if (letter == 'P') word.value -= 1;
-  // An M or S with an expression does not affect moves. A tool with a name has no number.
-  if (!word.literal && (letter == 'M' || letter == 'S' || letter == 'H' || letter == 'D'))
-    s.block.words.pop_back();
+  // An M with an expression does not affect moves. A tool with a name has no number.
+  if (!word.literal && (letter == 'M' || letter == 'H' || letter == 'D')) s.block.words.pop_back();
   // An arc whose centre is an expression is not followed.
   if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;
 }

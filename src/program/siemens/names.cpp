@@ -63,6 +63,8 @@ constexpr std::array harmless_names{
     "STARTFIFO", "STOPFIFO", "SPOSA",     "SOFTA",       "BRISKA",    "DRIVEA",  "DELAYFSTON", "DELAYFSTOF",
 };
 
+constexpr std::array speed_names{"FB", "FZ", "OVR", "SVC", "SETMS", "SPOS", "SPOSA"};
+
 constexpr std::array<std::string_view, 17> harmless_variables{"$AC_TIMER",
                                                               "$AC_MARKER",
                                                               "$AC_PARAM",
@@ -102,6 +104,10 @@ std::optional<Statement> statement_of_name(std::string_view name) {
 
 bool is_harmless_name(std::string_view name) {
   return is_one_of(name, harmless_names);
+}
+
+bool is_speed_name(std::string_view name) {
+  return is_one_of(name, speed_names);
 }
 
 bool is_harmless_variable(std::string_view name) {

@@ -14,6 +14,9 @@ std::optional<Statement> statement_of_name(std::string_view name);
 /// Whether the name neither moves an axis nor affects moves: MSG, SPOS, DYNNORM.
 bool is_harmless_name(std::string_view name);
 
+/// Whether a harmless name sets a feed or a speed, or stops a spindle.
+bool is_speed_name(std::string_view name);
+
 /// $AC_TIMER, $A_OUT: a variable of the control without an effect on coordinates.
 bool is_harmless_variable(std::string_view name);
 

@@ -107,6 +107,28 @@ void take_assigned(Scanner& s, Span variable) {
   s.block.assignments.push_back({variable, {value, s.at}});
 }
 
+void take_speed_word(Scanner& s, std::size_t name_length) {
+  SpeedWord& word = s.block.speed_words.emplace_back();
+  word.name = {s.at, s.at + name_length};
+  s.at = word.name.end;
+  s.skip_blanks();
+  if (s.peek() == '[') skip_siemens_index(s), s.skip_blanks();
+  word.value.number = {s.at, s.at};
+  if (s.peek() == '(') {
+    word.value.number.begin = ++s.at;
+    while (s.at < s.end && s.peek() != ')') ++s.at;
+    word.value.number.end = s.at;
+    if (s.at < s.end) ++s.at;
+  } else if (s.peek() == '=') {
+    word.value.number.begin = ++s.at;
+    skip_assigned(s);
+    word.value.number.end = s.at;
+  }
+  const auto number = plain_number(trimmed_text(part(s.text, word.value.number)));
+  word.value.literal = number.has_value();
+  word.value.value = number.value_or(0);
+}
+
 void read_named_word(Scanner& s, char letter, std::size_t name_length) {
   Word& word = s.block.words.emplace_back();
   word.letter = letter;

@@ -21,6 +21,9 @@ void skip_siemens_index(Scanner& scanner);
 /// Assigns the expression behind the '=' at the scanner to `variable`.
 void take_assigned(Scanner& scanner, Span variable);
 
+/// "S1=4000", "FB=R1", "SETMS(2)", "SETMS": a SpeedWord whose name has `name_length` characters.
+void take_speed_word(Scanner& scanner, std::size_t name_length);
+
 /// A word whose name has `name_length` characters, with '=' and its value: a number, AC(number), IC(number)
 /// or an expression. "CR=4." is the radius of an arc (`letter` R), "TURN=2" its additional full turns (P).
 /// Throws `InputError` (ErrorKind::program_text) if there is no value.

@@ -291,6 +291,7 @@ bool next_line(std::string_view text, Block& block) {
 void lex(std::string_view text, const std::string& file, const Dialect& dialect, Block& block) {
   block.words.clear();
   block.assignments.clear();
+  block.speed_words.clear();
   block.comments.clear();
   block.block_delete = {};
   block.percent = block.part_name = false;

@@ -57,6 +57,12 @@ struct Assignment {
   Span type{};  ///< of DEF: INT, REAL
 };
 
+/// A word of a Sinumerik that sets a feed or a speed by name: "S1=4000", "FB=100", "OVR=50", "SETMS(2)".
+struct SpeedWord {
+  Span name;
+  Word value;  ///< not literal without a number
+};
+
 /// One line. Its vectors are reused from line to line.
 struct Block {
   int line = 0;         ///< of the file
@@ -70,7 +76,6 @@ struct Block {
   bool part_name = false;            ///< the line is the name of a program
   bool assigns = false;              ///< has '#1=', "R1="
   bool assigns_by_name = false;      ///< "_DEPTH=5", "MEAS=1": a variable or an unknown word
-  bool own_feed = false;             ///< FB=: its feed acts in this block alone
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing is behind its name
   Span statement_text;             ///< of a call, from its name to the comment
@@ -81,7 +86,8 @@ struct Block {
   std::optional<Word> angle;
   std::vector<Word> words;
   std::vector<Assignment> assignments;  ///< of `assigns` and `assigns_by_name`
-  std::vector<Span> comments;           ///< the text inside the comment characters
+  std::vector<SpeedWord> speed_words;
+  std::vector<Span> comments;  ///< the text inside the comment characters
 };
 
 inline std::string_view part(std::string_view text, Span span) {
@@ -96,8 +102,8 @@ inline bool empty(Span span) {
 
 /// Whether a line has words, a comment or a statement for the control.
 inline bool has_content(const Block& block) {
-  return !block.words.empty() || block.assigns || block.statement != Statement::none ||
-         !empty(block.flow_keyword);
+  return !block.words.empty() || !block.speed_words.empty() || block.assigns ||
+         block.statement != Statement::none || !empty(block.flow_keyword);
 }
 
 /// Whether the block is an O-number alone in its line.

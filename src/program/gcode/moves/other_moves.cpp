@@ -121,16 +121,20 @@ void read_call(const Block& block, Reading& r) {
       block, r, word.empty() ? "a subprogram is called" + why : fmt::format("'{}' is not supported", word));
   finish_move(r, move);
   end_contour(r);
+  forget_speeds(r.state);
   r.state.unknown_modes |=
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
   if (!word.empty()) return;
-  add_remark(r.program, block.line,
-             "assumed: subprograms do not change the unit, the work offset, the tool length and G40 to G42");
+  add_remark(
+      r.program, block.line,
+      "assumed: subprograms do not change the unit, the work offset, the tool length, G40 to G42 and G93 to "
+      "G97");
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {
   r.state.unknown_modes = all_unknown_modes;
   r.variables.clear();
+  forget_speeds(r.state);
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   note_uncorrected(block, r, why);

@@ -17,10 +17,23 @@ bool is_increments(const Reading& r, const Word& word) {
          r.dialect.integer_words_ambiguous;
 }
 
-double feed_mm_min(const ModalState& state) {
-  if (!state.unit || state.feed_mode == FeedUnit::inverse_time) return 0;
-  const double feed = state.feed * mm_per(state.feed_unit.value_or(*state.unit));
-  return state.feed_mode == FeedUnit::per_turn ? feed * state.spindle_rpm : feed;
+/// 0 if it is unknown.
+double spindle_rpm(const ModalState& state) {
+  return state.spindle_off ? 0 : state.spindle_rpm;
+}
+
+/// 0 if it is unknown.
+double feed_mm_min(const Reading& r) {
+  const ModalState& state = r.state;
+  constexpr std::uint16_t doubts = unknown_unit | unknown_feed_mode;
+  if (!state.unit || state.feed_mode == FeedUnit::inverse_time || (state.unknown_modes & doubts) != 0)
+    return 0;
+  // Whether OVR= acts on FB=, too, is not known.
+  if (r.own_feed && state.feed_share != 1) return 0;
+  const double feed = r.own_feed
+                          ? *r.own_feed * mm_per(*state.unit)
+                          : state.feed_share * state.feed * mm_per(state.feed_unit.value_or(*state.unit));
+  return state.feed_mode == FeedUnit::per_turn ? feed * spindle_rpm(state) : feed;
 }
 
 /// Length of the move's path (mm); 0 if it is unknown.
@@ -267,8 +280,8 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   r.moved_by_machine.fill(false);
   move.relative = r.relative();
   move.incremental = move.relative ? 0 : r.relative_axes & 7U;
-  move.feed_mm_min = feed_mm_min(r.state);
-  move.spindle_rpm = r.state.spindle_rpm;
+  move.feed_mm_min = feed_mm_min(r);
+  move.spindle_rpm = spindle_rpm(r.state);
   move.frame = static_cast<std::uint32_t>(r.state.frame);
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program, motion, as_tool(r.state.tool));
@@ -292,6 +305,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   move.block_delete = !empty(block.block_delete);
   if (r.sorted.has(Action::stop_once)) move.exact_stop = true;
   if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
+  if ((r.state.displaced & modal_macro) != 0) forget_speeds(r.state);
   return move;
 }
 

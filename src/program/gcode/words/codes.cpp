@@ -137,7 +137,7 @@ constexpr std::array g_codes{
     GCode{940, Action::feed_per_minute, CodeGroup::feed_mode},
     GCode{950, Action::feed_per_turn, CodeGroup::feed_mode},
     GCode{960, Action::surface_speed, CodeGroup::spindle},
-    GCode{970, Action::state, CodeGroup::spindle},
+    GCode{970, Action::spindle_speed, CodeGroup::spindle},
     GCode{980, Action::initial_level, CodeGroup::retract},
     GCode{990, Action::retract_level, CodeGroup::retract},
     GCode{1000, Action::end_displace, CodeGroup::none, {}, shop_families, mirrored},

@@ -53,6 +53,7 @@ enum class Action : std::uint8_t {
   state,             ///< a state of the control without effect on moves; may have axis words
   limits,            ///< G25, G26 of a Sinumerik: of the working area, of the spindle's speed S
   surface_speed,     ///< G96
+  spindle_speed,     ///< G97
   not_read           ///< known, but not supported
 };
 

@@ -19,6 +19,17 @@ void apply_unit(Reading& r) {
   mark_known(r.state, unknown_unit);
 }
 
+/// G96 and G97 of a Sinumerik have the feed of G95, G961 and G971 that of G94.
+std::optional<FeedUnit> feed_mode_of_speed(const Reading& r) {
+  if (!r.dialect.sinumerik_words) return std::nullopt;
+  for (const FoundG& g : r.sorted.g) {
+    const int tenths = g.code->tenths;
+    if (tenths == 960 || tenths == 970 || tenths == 9730) return FeedUnit::per_turn;
+    if (tenths == 9610 || tenths == 9710) return FeedUnit::per_minute;
+  }
+  return std::nullopt;
+}
+
 void apply_feed_mode(Reading& r) {
   FeedUnit mode = r.state.feed_mode;
   if (r.sorted.has(Action::feed_per_minute)) {
@@ -27,6 +38,8 @@ void apply_feed_mode(Reading& r) {
     mode = FeedUnit::per_turn;
   } else if (r.sorted.has(Action::inverse_time)) {
     mode = FeedUnit::inverse_time;
+  } else if (const auto of_speed = feed_mode_of_speed(r)) {
+    mode = *of_speed;
   } else {
     return;
   }
@@ -41,6 +54,31 @@ void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
   if (f == nullptr || r.sorted.has(Action::dwell)) return;
   r.state.feed = f->value;
   r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
+}
+
+/// S beside G92 is the highest speed on some shop controls.
+bool may_limit_speed(const Reading& r) {
+  const auto is_g92 = [](const FoundG& g) { return g.code->tenths == 920; };
+  return r.dialect.macro_words && std::ranges::any_of(r.sorted.g, is_g92);
+}
+
+/// G97, and any code of the feed on a Sinumerik.
+bool ends_cutting_speed(const SortedBlock& sorted, const Dialect& dialect) {
+  const bool feed = sorted.has(Action::feed_per_minute) || sorted.has(Action::feed_per_turn) ||
+                    sorted.has(Action::inverse_time);
+  return sorted.has(Action::spindle_speed) || (dialect.sinumerik_words && feed);
+}
+
+/// Under a cutting speed the speed of the spindle is unknown, and behind it until the next S.
+void apply_s(Reading& r) {
+  ModalState& state = r.state;
+  if (r.sorted.has(Action::surface_speed)) state.surface_speed = true;
+  if (ends_cutting_speed(r.sorted, r.dialect)) state.surface_speed = false;
+  const Word* s = r.sorted.word('S');
+  // On some controls the S of a dwell is a number of turns.
+  if (s != nullptr && !r.sorted.has(Action::dwell) && !r.sorted.has(Action::limits))
+    state.spindle_rpm = may_limit_speed(r) ? 0 : s->value;
+  if (state.surface_speed) state.spindle_rpm = 0;
 }
 
 /// M61 Q2 states the tool in the spindle. The machine does not move.
@@ -140,10 +178,7 @@ void apply_feed_and_tool(Reading& r) {
   apply_unit(r);
   apply_feed_mode(r);
   apply_f(r, unit_before);
-  // On some controls the S of a dwell is a number of turns.
-  const bool gives_speed = !r.sorted.has(Action::dwell) && !r.sorted.has(Action::limits);
-  if (const Word* s = r.sorted.word('S'); s != nullptr && gives_speed) r.state.spindle_rpm = s->value;
-  if (r.sorted.has(Action::surface_speed)) r.state.spindle_rpm = 0;
+  apply_s(r);
   apply_tool(r);
 }
 
