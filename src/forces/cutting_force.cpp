@@ -200,9 +200,9 @@ CutForce cutting_force(const CutResponse& response, double feed_m_s, double spin
   if (slope > steepest_ramp) return no_force("the feed is along the tool axis (retract)");
   if (!plunges && !response.mills)
     return no_force("the cutter of its section only drills, and the feed is not along the tool axis");
-  if (!(feed_m_s > 0)) return no_force("no feed is programmed");
+  if (!(feed_m_s > 0)) return no_force("the program does not give its feed");
   const double rpm = response.spindle_rpm > 0 ? response.spindle_rpm : spindle_rpm;
-  if (!(rpm > 0)) return no_force("no spindle speed is programmed");
+  if (!(rpm > 0)) return no_force("the program does not give its spindle speed");
   CutForce force;
   const double lateral = plunges ? 1 : std::sqrt(1 - slope * slope);
   force.feed_per_tooth = feed_m_s * lateral / (rpm / 60 * response.flutes);

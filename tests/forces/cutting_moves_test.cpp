@@ -58,8 +58,8 @@ TEST_CASE("a plunge, a retract, a missing feed and a missing spindle speed give 
   CHECK(why(feed, rpm, std::sin(80.01 * deg)) == "the feed is along the tool axis (retract)");
   CHECK(why(feed, rpm, -std::sin(79.99 * deg)).empty());
   CHECK(why(feed, rpm, std::sin(79.99 * deg)).empty());
-  CHECK(why(0, rpm, 0) == "no feed is programmed");
-  CHECK(why(feed, 0, 0) == "no spindle speed is programmed");
+  CHECK(why(0, rpm, 0) == "the program does not give its feed");
+  CHECK(why(feed, 0, 0) == "the program does not give its spindle speed");
 }
 
 TEST_CASE("the reason for a plunge without feed and speed is the feed along the tool axis") {

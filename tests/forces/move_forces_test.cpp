@@ -102,7 +102,8 @@ TEST_CASE("a model's moves have its feed per tooth, its wrench and its reasons")
   CHECK(moves[2].line == 5);
   CHECK(moves[2].s_start == doctest::Approx(20 * mm));
   CHECK(moves[2].length == doctest::Approx(10 * mm));
-  CHECK(moves_of(sample_program(), model(sample_cut()))[1].why == "no spindle speed is programmed");
+  CHECK(moves_of(sample_program(), model(sample_cut()))[1].why ==
+        "the program does not give its spindle speed");
 }
 
 TEST_CASE("the force on an upright circle follows its slope, wherever the circle begins") {

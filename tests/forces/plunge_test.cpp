@@ -58,8 +58,8 @@ TEST_CASE("a drill has no force sideways and in its retract, and needs feed and 
   CHECK(cutting_force(drill(), drill_feed, 1000, 0).why ==
         "the cutter of its section only drills, and the feed is not along the tool axis");
   CHECK(cutting_force(drill(), drill_feed, 1000, 1).why == "the feed is along the tool axis (retract)");
-  CHECK(cutting_force(drill(), 0, 1000, -1).why == "no feed is programmed");
-  CHECK(cutting_force(drill(), drill_feed, 0, -1).why == "no spindle speed is programmed");
+  CHECK(cutting_force(drill(), 0, 1000, -1).why == "the program does not give its feed");
+  CHECK(cutting_force(drill(), drill_feed, 0, -1).why == "the program does not give its spindle speed");
 }
 
 TEST_CASE("an end mill with a point angle has a thrust in its plunges, and its milling forces stay") {

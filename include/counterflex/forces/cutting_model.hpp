@@ -135,7 +135,7 @@ inline constexpr double steepest_ramp = 0.984807753012208;  // sin 80 deg
 /// and no corner radius with it; or a cutter that drills and no axial depth.
 CutResponse respond(const CuttingModel& model);
 
-/// The force of a cut at programmed feed (m/s, 0: none) and spindle speed (1/min, 0: none). What is left
+/// The force of a cut at a feed (m/s) and a spindle speed (1/min) of the program, 0: unknown. What is left
 /// sideways of the feed makes the chips, c = feed sqrt(1 - slope^2) / (n N); a ramp is cut with that. Where
 /// the feed is along the tool axis (beyond `steepest_ramp`) only the plunge of a cutter that drills has a
 /// force, with c = feed / (n N). No force acts where no feed is programmed, where neither model nor program
