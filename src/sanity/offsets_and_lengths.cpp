@@ -40,7 +40,8 @@ SanityCheck check_tool_lengths(const std::map<long, double>& lengths_mm, const s
             fmt::format("the length of {} is unknown: the tip of [tool] is used; give --tool-length {}=MM, "
                         "--tool-table, or [tools.{}] length_mm",
                         named(unknown), unknown.front(), unknown.front())};
-  if (known.empty()) return {"tool lengths", SanityState::ok, "the program selects no tool by its number: [tool] is used"};
+  if (known.empty())
+    return {"tool lengths", SanityState::ok, "the program selects no tool by its number: [tool] is used"};
   return {"tool lengths", SanityState::ok, fmt::format("{}, from [spindle] to the tip", named(known))};
 }
 

@@ -101,7 +101,7 @@ GuardedValue guarded_value(double mm, double window_mm, LengthUnit unit) {
 }
 
 GuardedValue guarded_turn(const Guard& guard) {
-  constexpr double window = 1e-4;  // deg: 2 um in a metre
+  constexpr double window = 1e-4;  // deg: 2 µm in a metre
   const double turn = guard.turn_deg.value_or(0);
   return {guard_number(turn), guard_number(window), fmt::format("{} DEG", guard_number(turn))};
 }
