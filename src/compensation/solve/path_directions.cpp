@@ -112,6 +112,10 @@ class Follower {
       for (std::size_t i = 0; i < count; ++i) positions.push_back(places[first + i].at);
       const std::vector<NominalResult> nominals = solver_.nominals(positions);
       for (std::size_t i = 0; i < count; ++i) {
+        if (nominals[i].status != Status::converged && is_lost(places[first + i])) {
+          lose_all(places[first + i]);
+          continue;
+        }
         if (nominals[i].status != Status::converged) return std::move(path_);
         go_to(places[first + i], actuator_values(positions[i].model->mechanism, nominals[i].configuration));
       }
@@ -125,6 +129,16 @@ class Follower {
     std::size_t actuator;
     int sign;
   };
+
+  static bool is_lost(const Place& place) { return std::ranges::count(place.lost, true) > 0; }
+
+  /// Where the known axes and the old places of the others are together no place of the machine.
+  void lose_all(const Place& place) {
+    for (DirectionsEnd::Lost& lost : end_.lost) {
+      if (lost.before == 0) lost.before = job_.program.moves[place.move].line;
+      lost.position = true;
+    }
+  }
 
   void go_to(const Place& place, const Eigen::VectorXd& values) {
     const Mechanism& mechanism = place.at.model->mechanism;
