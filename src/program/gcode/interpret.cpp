@@ -224,6 +224,7 @@ void apply_words(const Block& block, Reading& r) {
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
   apply_parameter(block, r);
+  remark_named_tool(block, r);
   if (has_other_codes(r.sorted)) {
     apply_codes(block, r);
   } else {

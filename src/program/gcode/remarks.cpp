@@ -82,6 +82,11 @@ void remark_tool_length(const Block& block, Reading& reading) {
                          code, tool, tool, tool));
 }
 
+void remark_named_tool(const Block& block, Reading& reading) {
+  if (const Word* t = reading.sorted.word('T'); t != nullptr && !t->literal)
+    add_remark(reading.program, block.line, std::string(tool_without_number));
+}
+
 void remark_machine_codes(const Block& block, Reading& reading) {
   for (const FoundM& m : reading.sorted.m)
     if (m.action == MAction::machine)

@@ -11,6 +11,12 @@ namespace counterflex {
 constexpr std::string_view milled_as_a_whole =
     "the cycle is shifted as a whole with its centre; rotation and tilt across it are not corrected";
 
+/// For tools that are called by a name or by an expression.
+constexpr std::string_view tool_without_number =
+    "the tool is called without a number: the tip and the stiffness of [tool] are used for it, and --guard "
+    "does "
+    "not check it";
+
 /// Adds a remark, once for each text.
 void add_remark(Program& program, int line, std::string what);
 
@@ -19,6 +25,9 @@ void remark_path_mode(const Block& block, Reading& reading);
 
 /// The tool length of a G43 or G44 is unknown.
 void remark_tool_length(const Block& block, Reading& reading);
+
+/// The tool of T has no number.
+void remark_named_tool(const Block& block, Reading& reading);
 
 /// Codes that the machine builder defines.
 void remark_machine_codes(const Block& block, Reading& reading);

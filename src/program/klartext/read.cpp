@@ -83,6 +83,8 @@ void read_tool_call(const KlartextBlock& block, KlartextReading& r) {
   if (end > 0) {
     state.tool = 0;
     std::from_chars(rest.data(), rest.data() + end, state.tool);
+    if (rest[0] == '"' || rest[0] == 'Q')
+      add_remark(r.program, line_of_file(r.program.expansion, block.line), std::string(tool_without_number));
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (r.tool_change_axes[axis]) move_by_machine(r, axis);
     state.run_begin = r.program.moves.size();
