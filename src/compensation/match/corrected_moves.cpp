@@ -87,6 +87,33 @@ std::vector<Span> declared_numbers(const Program& window) {
   return numbers;
 }
 
+struct TextLine {
+  std::string_view text;
+  std::size_t begin;  // in the window
+};
+
+// From byte `begin` to the line feed at `end`. The header goes in behind the mark of UTF-8, before the rest
+// of the first line.
+TextLine text_line(std::string_view text, std::size_t begin, std::size_t end, bool is_first) {
+  if (is_first && text.substr(begin).starts_with(byte_order_mark)) begin += byte_order_mark.size();
+  std::string_view line = text.substr(begin, end - begin);
+  if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
+  return {line, begin};
+}
+
+// The line without the numbers of targets that it gives moves in other lines; empty if it gives none. `next`:
+// the first of `declared` that may be in the line.
+std::string without_targets(const Program& window, const std::vector<Span>& declared, const TextLine& line,
+                            std::size_t& next) {
+  const std::size_t first = next;
+  const std::string rest = without(declared, window.text, line.text, line.begin, next);
+  if (rest.size() == line.text.size()) return {};
+  const auto at = [&](std::size_t i) {
+    return declared.begin() + static_cast<std::ptrdiff_t>(std::min(i, declared.size()));
+  };
+  return declared_kept_words(window, {line.begin, line.begin + line.text.size()}, {at(first), at(next)});
+}
+
 // The moves of the window in the order of their lines: those of a loop over a data list are in lines far
 // behind it.
 std::vector<std::size_t> in_text_order(const Program& window) {
@@ -169,8 +196,8 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
   const bool klartext = window.dialect == "heidenhain", siemens = window.dialect == "siemens";
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
-    std::string_view line = text.substr(begin, end - begin);
-    std::size_t line_begin = std::exchange(begin, end + 1);
+    const auto [line, line_begin] = text_line(text, begin, end, lines_before_ == 0);
+    begin = end + 1;
     bool moves = false;
     for (; next_move < order.size() && window.moves[order[next_move]].block.begin <= end; moves = true) {
       const Move& move = window.moves[order[next_move]];
@@ -186,12 +213,6 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
         ++lines_before_;
       }
       continue;
-    }
-    if (!line.empty() && line.back() == '\r') line.remove_suffix(1);
-    // The header goes in behind the mark, before the rest of the line.
-    if (lines_before_ == 0 && line.starts_with(byte_order_mark)) {
-      line.remove_prefix(byte_order_mark.size());
-      line_begin += byte_order_mark.size();
     }
     const bool calls = siemens && calls_modal_cycle(line);
     if (is_of_guard(window, line_begin)) continue;
@@ -211,13 +232,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
-    const std::size_t first_number = next_number;
-    const std::string rest = without(declared, window.text, line, line_begin, next_number);
-    if (rest.size() < line.size())
-      statement_.back().without_targets = declared_kept_words(
-          window, {line_begin, line_begin + line.size()},
-          {declared.begin() + static_cast<std::ptrdiff_t>(first_number),
-           declared.begin() + static_cast<std::ptrdiff_t>(std::min(next_number, declared.size()))});
+    statement_.back().without_targets = without_targets(window, declared, {line, line_begin}, next_number);
     if (ends) end_statement();
   }
   end_statement();
