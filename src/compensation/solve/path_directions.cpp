@@ -48,19 +48,28 @@ void add_segment(const Job& job, const Segment& segment, std::vector<Place>& pla
   places.push_back(place_on(model, segment, 1));
 }
 
-/// Positions of moves that have no segment: the hole of a cycle, and a position from an unknown one.
-void add_position(const Job& job, std::size_t m, std::vector<Place>& places) {
+/// A hole: the way there, if it is known, then down to its place. Cycles of G-code have their own bottom and
+/// retract plane; one that is called at the end of the move comes down to this end.
+void add_hole(const Job& job, std::size_t m, const Segment* way, std::vector<Place>& places) {
+  constexpr double above_mm = 1;
   const Move& move = job.program.moves[m];
   const Model& model = model_of(job, m);
   const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
   const std::optional<Matrix3> R = orientation_of(job, move);
-  const auto add = [&](double u, const Vector3& p_mm) {
-    places.push_back({m, u, {&model, X_MW * (p_mm * mm), R}});
-  };
-  if (!move.cycle) return add(1, move.end_mm);
-  const Vector3 bottom = bottom_of(move);
-  add(0.5, {bottom.x(), bottom.y(), move.cycle->retract_mm});
-  add(1, bottom);
+  const auto add = [&](double u, const Vector3& p_M) { places.push_back({m, u, {&model, p_M, R}}); };
+  if (way != nullptr) add(0, way->wanted.start);
+  if (way != nullptr && move.cycle) add(0.25, way->wanted.end);
+  const Vector3 place_mm = hole_of(move);
+  const double top_mm = move.cycle ? move.cycle->retract_mm : place_mm.z() + above_mm;
+  add(0.5, X_MW * (Vector3(place_mm.x(), place_mm.y(), top_mm) * mm));
+  add(1, X_MW * (place_mm * mm));
+}
+
+/// The position of a move from an unknown one.
+void add_position(const Job& job, std::size_t m, std::vector<Place>& places) {
+  const Move& move = job.program.moves[m];
+  const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
+  places.push_back({m, 1, {&model_of(job, m), X_MW * (move.end_mm * mm), orientation_of(job, move)}});
 }
 
 /// The place behind `last` where a move has `known` axes; the others are where they were.
@@ -90,8 +99,14 @@ std::vector<Place> places_of(const Job& job, const std::optional<Vector3>& last)
   for (std::size_t m = 0; m < job.program.moves.size(); ++m) {
     const Move& move = job.program.moves[m];
     add_lost(m, move.known_start, move.start_mm);
-    if (next < job.path.segments.size() && job.path.segments[next].move == m)
-      add_segment(job, job.path.segments[next++], places);
+    const bool has_segment = next < job.path.segments.size() && job.path.segments[next].move == m;
+    const Segment* const segment = has_segment ? &job.path.segments[next++] : nullptr;
+    const bool is_hole =
+        move.cycle ? move.known_end[0] && move.known_end[1] : move.makes_hole && all_known(move.known_end);
+    if (is_hole)
+      add_hole(job, m, segment, places);
+    else if (segment != nullptr)
+      add_segment(job, *segment, places);
     else if (all_known(move.known_end))
       add_position(job, m, places);
     else
@@ -202,7 +217,7 @@ class Follower {
   /// At the end of a cut.
   void note_doubts(const Place& place, const Mechanism& mechanism) {
     const Move& move = job_.program.moves[place.move];
-    const bool cuts = place.segment != nullptr ? place.segment->cutting : static_cast<bool>(move.cycle);
+    const bool cuts = place.segment != nullptr ? place.segment->cutting : move.cycle || move.makes_hole;
     if (!cuts || place.u != 1) return;
     for (std::size_t a = 0; a < end_.lost.size(); ++a) {
       DirectionsEnd::Lost& lost = end_.lost[a];

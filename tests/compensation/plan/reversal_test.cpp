@@ -104,6 +104,29 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a drill comes down to the bottom of each hole") {
+  const std::string start = "G21 G90 G17\nG0 X0. Y0. Z20.\n";
+  for (const std::string holes :
+       {"G98 G81 X5. Y0. Z-3. R2. F100\nX10.\nX15.\n", "G99 G81 X5. Y0. Z-3. R2. F100\nX10.\nX15.\n",
+        "G53 G0 Z100.\nG98 G81 X5. Y0. Z-3. R2. F100\nX10.\nX15.\n"}) {
+    CAPTURE(holes);
+    const Shop shop({.machine = mill_with_reversal(), .text = start + holes + "G80\nG0 Z20.\nM30\n"});
+    std::size_t count = 0;
+    for (std::size_t m = 0; m < shop.program.moves.size(); ++m) {
+      if (!shop.program.moves[m].cycle) continue;
+      CHECK(shop.directions.at(m, 1, Side::before).of(2) == -1);
+      ++count;
+    }
+    CHECK(count == 3);
+  }
+  const Shop called(
+      {.machine = mill_with_reversal(),
+       .text = "BEGIN PGM K MM\nTOOL CALL 1 Z S2000\nL Z+20 R0 FMAX\nCYCL DEF 200 Q200=2 Q201=-3 "
+               "Q206=100 Q203=+0 Q204=20\nL X+5 Y+5 R0 FMAX M99\nL X+10 R0 FMAX M99\nEND PGM K MM\n"});
+  for (std::size_t m = 1; m < called.program.moves.size(); ++m)
+    CHECK(called.directions.at(m, 1, Side::before).of(2) == -1);
+}
+
 TEST_CASE("a command leads its axis by half of the reversal, and a point takes up the lost motion") {
   const Shop shop({.machine = mill_with_reversal(), .text = corners, .tolerance = 2e-6, .decimals = 4});
   const Compensation result = compensated(shop);
