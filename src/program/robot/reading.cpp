@@ -77,6 +77,7 @@ bool place_external(const RobotTarget& target, RobotReading& r, int line) {
     const std::optional<double> value = target.external[i] ? target.external[i] : state.external[i];
     std::optional<ExternalAxis>& first = r.program.external_axes[i];
     if (!value) {
+      if (!first) first = state.external_at_joints[i];
       int& unknown_in = first ? first->unknown_in : state.external_unknown_in[i];
       if (unknown_in == 0) unknown_in = line;
       continue;
@@ -261,6 +262,9 @@ void add_joint_move(RobotReading& r, const RobotLine& line, std::string why,
     for (std::size_t i = 0; i < external.size(); ++i)  // an axis without a value stays
       if (!joints->external[i]) r.state.joints->external[i] = external[i];
     r.state.external = r.state.joints->external;
+    for (std::size_t i = 0; i < external.size(); ++i)
+      if (const auto& value = joints->external[i])
+        r.state.external_at_joints[i] = ExternalAxis{*value, line.line};
   }
   r.state.moved_by_machine = true;
   r.last_reason = why;

@@ -19,6 +19,8 @@ struct RobotState {
   std::array<bool, 4> known_orientation{};  ///< by number
   std::array<std::optional<double>, 6> external{};
   std::array<int, 6> external_unknown_in{};  ///< line of the first target before any that gives the axis
+  /// The last ones of joint targets.
+  std::array<std::optional<ExternalAxis>, 6> external_at_joints{};
   /// A joint target after which no statement moved the robot; the position is unknown until the next move.
   std::optional<JointPlace> joints{};
   int joints_line = 0;                        ///< of that target
