@@ -155,6 +155,7 @@ void prepare_guard(Run& run, Console& console) {
   guard.control = run.read.unit.value_or(LengthUnit::millimetres);
   refuse(why_no_guard(run.program.dialect, guard));
   guard = guard_of(run, cut);
+  refuse(why_no_guard(run.program.dialect, guard));
   console.progress("finding the window of the guard");
   const auto places = corrected_places(run, console);
   if (!places) return;
