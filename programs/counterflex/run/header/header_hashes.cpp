@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
+#include <iterator>
 #include <sstream>
 
 #include "run/header/header.hpp"
@@ -58,7 +60,7 @@ std::string lines_with(std::string_view key, const std::vector<std::string>& lin
   return found;
 }
 
-/// The lines of a header without their marks. Remarks of some controls have room for their beginning only.
+/// The lines of a header without their marks.
 std::vector<std::string> header_lines(const std::string& text) {
   std::vector<std::string> lines;
   for (std::size_t at = text.find(line_begin); at != std::string::npos; at = text.find(line_begin, at)) {
@@ -70,27 +72,38 @@ std::vector<std::string> header_lines(const std::string& text) {
   return lines;
 }
 
+constexpr std::array<std::string_view, 6> statements{"WORK ",  "TEMPERATURE ",     "TOOL ",
+                                                     "FORCE ", "NO CUTTING FORCE", "WITH FORCES TIMES "};
+
+std::string without_blanks(const std::string& text) {
+  std::string rest;
+  std::ranges::copy_if(text, std::back_inserter(rest), [](char c) { return c != ' '; });
+  return rest;
+}
+
+/// A FANUC divides lines among remarks: their beginnings are lost.
+void add_statements_of_remarks(const std::vector<std::string>& found, const std::vector<std::string>& own,
+                               std::vector<std::string>& warnings) {
+  std::string joined;
+  for (const std::string& line : found) joined += without_blanks(line);
+  for (const std::string& line : own) {
+    const auto begins = [&](std::string_view key) { return line.starts_with(key); };
+    if (std::ranges::any_of(statements, begins) && joined.find(without_blanks(line)) == std::string::npos)
+      warnings.push_back(
+          fmt::format("made for other conditions than those of this run, which is for '{}'", line));
+  }
+}
+
 /// What the header states of work offsets, tools, forces and the temperature, and this run differently.
 void add_other_statements(const std::string& text, const Options& options, const Run& run,
                           std::vector<std::string>& warnings) {
   const std::vector<std::string> found = header_lines(text);
   std::vector<std::string> own = header_of(options, run);
   for (std::string& line : own) line.erase(0, line_begin.size());
-  const bool has_room = run.program.dialect != "fanuc_tp" && run.program.dialect != "yaskawa";
-  const auto has = [&](const std::string& line, const std::vector<std::string>& others) {
-    return std::ranges::any_of(others, [&](const std::string& other) {
-      return has_room ? other == line : other.starts_with(line) || line.starts_with(other);
-    });
-  };
-  for (const std::string_view key :
-       {"WORK ", "TEMPERATURE ", "TOOL ", "FORCE ", "NO CUTTING FORCE", "WITH FORCES TIMES "}) {
-    const auto differs = [&](const std::string& line, const std::vector<std::string>& others) {
-      return line.starts_with(key) && !has(line, others);
-    };
-    if (std::ranges::none_of(found, [&](const std::string& line) { return differs(line, own); }) &&
-        std::ranges::none_of(own, [&](const std::string& line) { return differs(line, found); }))
-      continue;
+  if (run.program.dialect == "fanuc_tp") return add_statements_of_remarks(found, own, warnings);
+  for (const std::string_view key : statements) {
     const std::string was = lines_with(key, found), is = lines_with(key, own);
+    if (was == is) continue;
     warnings.push_back(
         fmt::format("made for other conditions than those of this run: its header has {}, this run {}",
                     was.empty() ? "no such line" : "'" + was + "'",
