@@ -193,7 +193,7 @@ void add_word(const Block& block, const BlockText& in, const Word& word, Effects
 std::string unfollowed_name(std::string_view text) {
   constexpr auto of_block =
       std::to_array<std::string_view>({"AC", "IC", "DC", "ACP", "ACN", "CR", "AR", "AP", "RP", "TURN", "ANG",
-                                       "RND", "CHF", "CHR", "FB", "SPOS", "MSG", "STOPRE"});
+                                       "RND", "CHF", "CHR", "FB", "SPOS", "SUPA", "MSG", "STOPRE"});
   bool quoted = false;
   for (std::size_t at = 0; at < text.size() && (quoted || text[at] != ';'); ++at) {
     if (text[at] == '"') quoted = !quoted;

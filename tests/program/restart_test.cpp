@@ -152,7 +152,7 @@ TEST_CASE("words of a Sinumerik whose effect on later blocks is not followed are
     const std::string name = word.substr(0, word.find_first_of("=("));
     CHECK(lacks(again, mpf + "N70 " + word + "\n", "siemens") == name + " of line 7");
   }
-  for (const char* block : {"MSG(\"OVR=50\") ; SOFT\n", "G2 X10 CR=5\n", "SPOS=0\n"})
+  for (const char* block : {"MSG(\"OVR=50\") ; SOFT\n", "G2 X10 CR=5\n", "SPOS=0\n", "G0 SUPA Z0\n"})
     CHECK(lacks(again, mpf + block, "siemens") == "");
 }
 
