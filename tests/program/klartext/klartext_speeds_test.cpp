@@ -82,3 +82,13 @@ TEST_CASE("klartext: a spindle that may be off has no speed until M3, M4, M13 or
   CHECK(klartext_speeds({"M5", "M13", "L X+5"}).second == 2000);
   CHECK(klartext_speeds({"/ M5", "L X+5"}).second == 0);
 }
+
+TEST_CASE("klartext: a block with FT, the time of all of it, stays whole") {
+  const auto last = [](const std::string& block) {
+    return read_program(klartext({"TOOL CALL 1 Z S2000", "L X+0 Y+0 Z+0 R0 FMAX M3", block}), "p.h", {})
+        .moves.back();
+  };
+  CHECK(last("L X+5 F500").may_split);
+  CHECK_FALSE(last("L X+5 FT10").may_split);
+  CHECK(last("L X+5 FT10").stays_whole);
+}
