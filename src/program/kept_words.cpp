@@ -83,6 +83,21 @@ bool is_first_piece(const Move& move, const std::string& words) {
   return move.motion == Motion::feed && !changes_height_inside(move) && (move.sets_force || !is_plain(words));
 }
 
+std::string feed_word(const std::string& words) {
+  const auto is_letter_at = [&](std::size_t i) { return upper(words[i]) >= 'A' && upper(words[i]) <= 'Z'; };
+  for (std::size_t i = 0; i < words.size() && words[i] != ';'; ++i) {
+    if (words[i] == '(') i = std::min(words.find(')', i), words.size() - 1);
+    if (upper(words[i]) != 'F') continue;
+    std::size_t end = i + feed_name_size(words, i);
+    for (int brackets = 0; end < words.size(); ++end) {
+      brackets += (words[end] == '[') - (words[end] == ']');
+      if (brackets == 0 && (is_letter_at(end) || words[end] == '(' || words[end] == ';')) break;
+    }
+    return words.substr(i, end - i);
+  }
+  return {};
+}
+
 bool is_plain(const std::string& words) {
   for (std::size_t i = 0; i < words.size() && words[i] != ';'; ++i) {
     const char c = upper(words[i]);

@@ -35,6 +35,9 @@ bool are_alike(const std::string& a, const std::string& b);
 /// and FT. Comments do not count.
 bool is_plain(const std::string& words);
 
+/// The word of the feed in kept words, with its value as it is in the text; empty without one.
+std::string feed_word(const std::string& words);
+
 /// Whether a block that is split is itself the first of its pieces, as its words act at its beginning: it has
 /// a label, other words than those of the move and F, or sets the force. `words`: its kept words. Others are
 /// the last piece.

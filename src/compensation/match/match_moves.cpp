@@ -160,6 +160,26 @@ namespace {
 
 constexpr double same_time = 1e-3;  // of the time of a block: F is rounded
 
+// Each piece takes as much of the time as it goes of the way.
+std::optional<Failure> share_failure(const MatchedMoves& matched) {
+  double length_mm = 0, minutes = 0;
+  for (const CorrectedMove& found : matched.found) {
+    if (!all_known(found.move->known_start) || !all_known(found.move->known_end)) return std::nullopt;
+    length_mm += length(curve_of(*found.move));
+    minutes += 1 / found.move->feed_per_min;
+  }
+  for (const CorrectedMove& found : matched.found) {
+    const Move& move = *found.move;
+    const double of_way = length(curve_of(move)) / length_mm, of_time = 1 / move.feed_per_min / minutes;
+    const double rounding = roundings * rounding_as_read(move) / mm / length_mm;
+    if (length_mm > 0 && std::abs(of_way - of_time) > same_time + rounding)
+      return matched.failure_at(move.line, fmt::format("this piece goes {:.1f} % of the way of its block in "
+                                                       "{:.1f} % of the time",
+                                                       100 * of_way, 100 * of_time));
+  }
+  return std::nullopt;
+}
+
 // G93: the pieces of a block take its time together. A block without F keeps it so.
 std::optional<Failure> time_failure(const MatchedMoves& matched) {
   const Move& original = matched.original;
@@ -167,9 +187,45 @@ std::optional<Failure> time_failure(const MatchedMoves& matched) {
   double minutes = 0;
   for (const CorrectedMove& found : matched.found) minutes += 1 / found.move->feed_per_min;
   const double wanted = 1 / original.feed_per_min;
-  if (minutes == wanted || std::abs(minutes - wanted) <= same_time * wanted) return std::nullopt;
+  const bool same = minutes == wanted || std::abs(minutes - wanted) <= same_time * wanted;
+  if (same) return std::isfinite(wanted) ? share_failure(matched) : std::nullopt;
   return matched.failure(
       fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
+}
+
+// Fanuc and Haas may read a length without a point in units of 0.001 mm.
+std::optional<Failure> point_failure(const Job& job, const MatchedMoves& matched) {
+  const bool counts_units = job.program.dialect == "fanuc" || job.program.dialect == "haas";
+  if (!counts_units || job.program.integer_words != IntegerWords::unspecified) return std::nullopt;
+  const auto has_point = [](const Program& program, const PackedAxisWord& word) {
+    const std::string_view text =
+        std::string_view(program.text).substr(word->number.begin, word->number.end - word->number.begin);
+    return text.find_first_of(".123456789") == std::string_view::npos ||
+           text.find('.') != std::string_view::npos;
+  };
+  const Move& original = matched.original;
+  for (const CorrectedMove& found : matched.found) {
+    std::vector<std::pair<PackedAxisWord, PackedAxisWord>> words;
+    for (std::size_t k = 0; k < 3; ++k) words.emplace_back(found.move->words[k], original.words[k]);
+    if (found.move->arc && original.arc) {
+      for (std::size_t k = 0; k < 3; ++k)
+        words.emplace_back(found.move->arc->centre_words[k], original.arc->centre_words[k]);
+      words.emplace_back(found.move->arc->radius_word, original.arc->radius_word);
+    }
+    if (found.move->cycle && original.cycle) {
+      words.emplace_back(found.move->cycle->bottom_word, original.cycle->bottom_word);
+      words.emplace_back(found.move->cycle->retract_word, original.cycle->retract_word);
+    }
+    for (const auto& word : words) {
+      const bool is_kept = word.second && !has_point(job.program, word.second);
+      if (word.first && !is_kept && !has_point(*found.program, word.first))
+        return matched.failure_at(
+            found.move->line,
+            "a length of this block has no point, that of the original has one: the control "
+            "may read it in units of 0.001 mm");
+    }
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -198,8 +254,11 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     }
     if (words == wanted) ++own_blocks;
     const bool plain = is_plain(words) && words.find_first_of("(;") == std::string::npos;
+    const std::string feed = feed_word(words);
+    // Two feeds that are not known are the same if they are the same text.
+    const bool same_text = move.feed_mm_min > 0 || feed.empty() || feed == feed_word(wanted);
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
-                           move.feed_mm_min == original.feed_mm_min;
+                           (move.feed_mm_min == original.feed_mm_min && same_text);
     if (matched.found.size() == 1 && words != wanted)
       return matched.failure_at(move.line,
                                 "the words besides coordinates are not those of the original's block");
@@ -210,6 +269,9 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
       return matched.failure_at(
           move.line,
           "the N of a block belongs to its first piece, and other pieces of a block without N have none");
+    if (!same_feed && !same_text)
+      return matched.failure_at(
+          move.line, fmt::format("the feed is {} here, in the original '{}'", feed, feed_word(wanted)));
     if (!same_feed)
       return matched.failure_at(move.line,
                                 fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
@@ -217,6 +279,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   }
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
     return matched.failure("the words of the original's block are in several blocks here, or in no block");
+  if (auto failure = point_failure(job, matched)) return failure;
   return time_failure(matched);
 }
 

@@ -145,6 +145,37 @@ TEST_CASE("under G93 the pieces of a block take its time") {
     CHECK(refused(across).find("min here, in the original 0.1 min") != std::string::npos);
 }
 
+TEST_CASE("a piece has its share of the time, and a feed that is not known is the same text") {
+  const auto program = [](const std::string& cut) {
+    return fmt::format("G21 G90 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\n{}\nG94\nM30\n", cut);
+  };
+  const std::string timed = program("G93\nG1 X10 F1");
+  CHECK(refusal(program("G93\nG1 X5 F2\nX10 F2"), timed).empty());
+  CHECK(refusal(program("G93\nG1 X9 F10\nX10 F1.11111"), timed)
+            .find("this piece goes 90.0 % of the way of its "
+                  "block in 10.0 % of the time") != std::string::npos);
+  const std::string per_turn = program("G95\nG1 X10 F0.1");
+  CHECK(refusal(program("G95\nG1 X5 F0.1\nX10 F0.1"), per_turn).empty());
+  CHECK(refusal(program("G95\nG1 X5 F0.9\nX10 F0.1"), per_turn)
+            .find("the feed is F0.9 here, in the original "
+                  "'F0.1'") != std::string::npos);
+}
+
+TEST_CASE("a length keeps its point where a control may read it in units of 0.001 mm") {
+  const std::string text = "O1\nG21 G90 G54\nG0 X0. Y0. Z5.\nG1 Z0. F100.\nX10.\nG0 Z5.\nM30\n";
+  const auto refused = [&](const std::string& changed) {
+    Order order{.machine = load_machine(orthoglide_perfect), .text = text};
+    order.read.dialect = "fanuc";
+    const Shop shop(order);
+    const auto failure = verify(shop.job(), read_program(changed, "changed.nc", order.read), false).failure;
+    return failure ? failure->what : "";
+  };
+  CHECK(refused(text) == "");
+  std::string edited = text;
+  edited.erase(edited.rfind("Z5.") + 2, 1);
+  CHECK(refused(edited).starts_with("a length of this block has no point"));
+}
+
 TEST_CASE("a split block is the first of its pieces with any word that acts at its beginning") {
   for (const std::string word : {"SPOS=90", "MSG(\"CUT\")", "R5=3", "M3=5", "H3", "OVR=50", "STOPRE", "M8"}) {
     CAPTURE(word);

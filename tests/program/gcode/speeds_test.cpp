@@ -47,15 +47,16 @@ TEST_CASE("a feed and a speed that one path through a condition or a loop sets a
 }
 
 TEST_CASE("a feed and a speed are unknown behind a called subprogram, M72 and text that is not read") {
-  for (const auto& [lines, dialect] : {std::pair{"M98 P100\n", "fanuc"},
-                                       {"G65 P9010 F3. S4.\n", "fanuc"},
-                                       {"G66 P9010 F3.\nG67\n", "fanuc"},
-                                       {"G[#1]\n", "linuxcnc"},
-                                       {"o<cut> call [1]\n", "linuxcnc"},
-                                       {"M70\nM72\n", "linuxcnc"}}) {
+  for (const auto& of : {std::pair{"M98 P100\n", "fanuc"},
+                         {"G65 P9010 F3. S4.\n", "fanuc"},
+                         {"G66 P9010 F3.\nG67\n", "fanuc"},
+                         {"G[#1]\n", "linuxcnc"},
+                         {"o<cut> call [1]\n", "linuxcnc"},
+                         {"M70\nM72\n", "linuxcnc"}}) {
+    const std::string lines = of.first, dialect = of.second;
     CAPTURE(lines);
     CHECK(behind(lines, dialect) == FeedAndSpeed{0, 0});
-    CHECK(behind(std::string(lines) + "G21 G94 F200 S3000\n", dialect) == FeedAndSpeed{200, 3000});
+    CHECK(behind(lines + "G21 G94 F200 S3000\n", dialect) == FeedAndSpeed{200, 3000});
   }
 }
 
