@@ -193,37 +193,40 @@ std::optional<Failure> time_failure(const MatchedMoves& matched) {
       fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
 }
 
+// Of axes, of the centre and the radius of an arc, of the heights of a cycle.
+std::array<PackedAxisWord, 9> length_words(const Move& move) {
+  std::array<PackedAxisWord, 9> words;
+  std::ranges::copy(move.words, words.begin());
+  if (move.arc) {
+    std::ranges::copy(move.arc->centre_words, words.begin() + 3);
+    words[6] = move.arc->radius_word;
+  }
+  if (move.cycle) words[7] = move.cycle->bottom_word, words[8] = move.cycle->retract_word;
+  return words;
+}
+
+// Zero needs no point.
+bool lacks_point(const Program& program, const PackedAxisWord& word) {
+  if (!word) return false;
+  const Span number = word->number;
+  const std::string_view text =
+      std::string_view(program.text).substr(number.begin, number.end - number.begin);
+  return text.find('.') == std::string_view::npos &&
+         text.find_first_of("123456789") != std::string_view::npos;
+}
+
 // Fanuc and Haas may read a length without a point in units of 0.001 mm.
 std::optional<Failure> point_failure(const Job& job, const MatchedMoves& matched) {
   const bool counts_units = job.program.dialect == "fanuc" || job.program.dialect == "haas";
   if (!counts_units || job.program.integer_words != IntegerWords::unspecified) return std::nullopt;
-  const auto has_point = [](const Program& program, const PackedAxisWord& word) {
-    const std::string_view text =
-        std::string_view(program.text).substr(word->number.begin, word->number.end - word->number.begin);
-    return text.find_first_of(".123456789") == std::string_view::npos ||
-           text.find('.') != std::string_view::npos;
-  };
-  const Move& original = matched.original;
+  const auto originals = length_words(matched.original);
   for (const CorrectedMove& found : matched.found) {
-    std::vector<std::pair<PackedAxisWord, PackedAxisWord>> words;
-    for (std::size_t k = 0; k < 3; ++k) words.emplace_back(found.move->words[k], original.words[k]);
-    if (found.move->arc && original.arc) {
-      for (std::size_t k = 0; k < 3; ++k)
-        words.emplace_back(found.move->arc->centre_words[k], original.arc->centre_words[k]);
-      words.emplace_back(found.move->arc->radius_word, original.arc->radius_word);
-    }
-    if (found.move->cycle && original.cycle) {
-      words.emplace_back(found.move->cycle->bottom_word, original.cycle->bottom_word);
-      words.emplace_back(found.move->cycle->retract_word, original.cycle->retract_word);
-    }
-    for (const auto& word : words) {
-      const bool is_kept = word.second && !has_point(job.program, word.second);
-      if (word.first && !is_kept && !has_point(*found.program, word.first))
-        return matched.failure_at(
-            found.move->line,
-            "a length of this block has no point, that of the original has one: the control "
-            "may read it in units of 0.001 mm");
-    }
+    const auto words = length_words(*found.move);
+    for (std::size_t k = 0; k < words.size(); ++k)
+      if (lacks_point(*found.program, words[k]) && !lacks_point(job.program, originals[k]))
+        return matched.failure_at(found.move->line,
+                                  "a length of this block has no point, that of the original has one: the "
+                                  "control may read it in units of 0.001 mm");
   }
   return std::nullopt;
 }
@@ -254,9 +257,9 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     }
     if (words == wanted) ++own_blocks;
     const bool plain = is_plain(words) && words.find_first_of("(;") == std::string::npos;
-    const std::string feed = feed_word(words);
     // Two feeds that are not known are the same if they are the same text.
-    const bool same_text = move.feed_mm_min > 0 || feed.empty() || feed == feed_word(wanted);
+    const bool same_text =
+        move.feed_mm_min > 0 || feed_word(words).empty() || feed_word(words) == feed_word(wanted);
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
                            (move.feed_mm_min == original.feed_mm_min && same_text);
     if (matched.found.size() == 1 && words != wanted)
@@ -270,8 +273,8 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
           move.line,
           "the N of a block belongs to its first piece, and other pieces of a block without N have none");
     if (!same_feed && !same_text)
-      return matched.failure_at(
-          move.line, fmt::format("the feed is {} here, in the original '{}'", feed, feed_word(wanted)));
+      return matched.failure_at(move.line, fmt::format("the feed is {} here, in the original '{}'",
+                                                       feed_word(words), feed_word(wanted)));
     if (!same_feed)
       return matched.failure_at(move.line,
                                 fmt::format("the feed is {:g} mm/min here, in the original {:g} mm/min",
