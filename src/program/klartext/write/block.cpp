@@ -366,7 +366,7 @@ void rewrite_klartext_block(const Program& program, const KlartextStyle& style, 
                             const WriteOptions& options, KlartextTextState& state,
                             std::vector<KlartextChange>& changes, Rewritten& out) {
   const Move& move = program.moves[edit.move];
-  assert(edit.inserted.empty() || move.may_split || changes_height_inside(move));
+  assert(edit.inserted.empty() || move.may_split || move.may_position || changes_height_inside(move));
   if (!has_words(move)) {
     state.position = text_position_after_original(move, state.position);
     return reach_surface(move, state);
