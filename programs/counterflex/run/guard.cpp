@@ -45,19 +45,18 @@ Cut find_first_cut(Run& run) {
 }
 
 [[noreturn]] void refuse_unknown_numbers(const Run& run, const std::string& name) {
-  if (run.machine.machine.work_is_machine_frame)
-    throw InputError(
-        ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
-        fmt::format("--guard compares the numbers of {0} on the control, but the work is taken in "
-                    "the machine frame (--work machine, work = \"machine\"): give --work "
-                    "{0}=X,Y,Z/machine/offset=X,Y,Z instead",
-                    name));
-  throw InputError(
-      ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
-      fmt::format("--guard compares the numbers of {0} on the control, which are not known: add offset_mm = "
-                  "[x, y, z] to [work.{0}] here or in the project file, or give --work "
-                  "{0}=X,Y,Z/offset=X,Y,Z",
-                  name));
+  const std::string why =
+      run.machine.machine.work_is_machine_frame
+          ? fmt::format(
+                "but the work is taken in the machine frame (--work machine, work = \"machine\"): give "
+                "--work {}=X,Y,Z/machine/offset=X,Y,Z instead",
+                name)
+          : fmt::format(
+                "which are not known: add offset_mm = [x, y, z] to [work.{0}] here or in the project "
+                "file, or give --work {0}=X,Y,Z/offset=X,Y,Z",
+                name);
+  throw InputError(ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
+                   fmt::format("--guard compares the numbers of {} on the control, {}", name, why));
 }
 
 GuardedOffset offset_of(const Run& run, const Cut& cut) {
