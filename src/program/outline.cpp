@@ -156,6 +156,7 @@ Outline OutlineScan::finish() {
   outline_.klartext = klartext_.finish();
   outline_.krl = krl_.finish();
   outline_.named_targets = outline_.named_targets || rapid_.depends_on_far_lines();
+  outline_.routines = rapid_.routines();
   outline_.still_routines = rapid_.still_routines();
   return std::move(outline_);
 }

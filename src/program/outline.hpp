@@ -19,10 +19,11 @@ struct Outline {
   KlartextOutline klartext{};
   /// A robot program gives targets or other data names: moves depend on lines far from them.
   bool named_targets = false;
-  bool data_lists = false;      ///< data lists follow a KUKA program
-  KrlArrays arrays{};           ///< of these data lists
-  KrlFacts krl{};               ///< of the routines of a KUKA program
-  RapidNames still_routines{};  ///< of an ABB module that is not read as a whole: they do not move the robot
+  bool data_lists = false;  ///< data lists follow a KUKA program
+  KrlArrays arrays{};       ///< of these data lists
+  KrlFacts krl{};           ///< of the routines of a KUKA program
+  /// Of an ABB module that is not read as a whole: its routines, and those that do not move the robot.
+  RapidNames routines{}, still_routines{};
   bool list_follows_loop = false;  ///< the data list is behind the loop that uses it
   bool tool_axes = false;          ///< an APT program gives tool axes: GOTO/ with six numbers
 };

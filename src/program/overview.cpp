@@ -4,6 +4,8 @@
 
 #include <algorithm>
 
+#include "program/gcode/remarks.hpp"
+
 namespace counterflex {
 namespace {
 
@@ -73,6 +75,12 @@ void add_window(Overview& overview, const Program& window) {
   overview.lines = window.expansion.file_lines > 0
                        ? window.expansion.file_lines
                        : std::max({overview.lines, overview.text_lines, last_move});
+}
+
+std::optional<int> first_unread_call(const Overview& overview) {
+  for (const Remark& remark : overview.remarks)
+    if (remark.what.starts_with(assumption_of_calls)) return remark.line;
+  return std::nullopt;
 }
 
 std::string zones_in_words(const Zones& zones) {

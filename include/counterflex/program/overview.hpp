@@ -49,6 +49,9 @@ void add_window(Overview& overview, const Program& window);
 /// The overview of a program that is one window.
 Overview overview_of(const Program& whole);
 
+/// Line of the first call of a program or routine that is not read; empty without one.
+std::optional<int> first_unread_call(const Overview& overview);
+
 /// "round 12 targets, largest 10 mm, line 7"; empty without zones.
 std::string zones_in_words(const Zones& zones);
 

@@ -46,7 +46,28 @@ void record_tolerance(const Block& block, Reading& reading) {
     known.push_back(tolerance);
 }
 
+/// What a called program may change and the reader keeps.
+std::string_view kept_behind_calls(std::string_view dialect) {
+  if (dialect == "heidenhain")
+    return "the datum, the coordinates (shift, rotation, mirror image, scale, tilt, M128) and the tool";
+  if (dialect == "kuka") return "$BASE, $TOOL, $VEL, $ORI_TYPE and $CIRC_TYPE";
+  if (dialect == "abb")
+    return "work objects and tools, VelSet, SingArea and CirPathMode, and do not displace targets (PDispOn, "
+           "EOffsOn)";
+  if (dialect == "ur") return "features and the tool centre point, and do not offset the path";
+  if (dialect == "fanuc_tp") return "the numbers of user frames and tools, and do not offset positions";
+  if (dialect == "yaskawa") return "user frames and tools, and do not shift positions (SFTON)";
+  return "the unit, the work offset, the coordinates (shift, rotation, mirror image, scale, tilt), the tool, "
+         "its length, G40 to G42 and G93 to G97";
+}
+
 }  // namespace
+
+void assume_of_calls(Program& program, int line) {
+  add_remark(program, line,
+             fmt::format("{}{}; see that their text agrees", assumption_of_calls,
+                         kept_behind_calls(program.dialect)));
+}
 
 void add_remark(Program& program, int line, std::string what) {
   if (program.remarks.size() >= most_remarks) return;

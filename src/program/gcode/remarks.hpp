@@ -17,8 +17,15 @@ constexpr std::string_view tool_without_number =
     "does "
     "not check it";
 
+/// Begin of the remark of `assume_of_calls`.
+constexpr std::string_view assumption_of_calls = "assumed from here on: called programs do not change ";
+
 /// Adds a remark, once for each text.
 void add_remark(Program& program, int line, std::string what);
+
+/// A program or routine is called that is not read. Adds the remark that states what counts as unchanged
+/// behind such calls.
+void assume_of_calls(Program& program, int line);
 
 /// Deviation from the path that G64, G5.1 and G187 allow the control.
 void remark_path_mode(const Block& block, Reading& reading);

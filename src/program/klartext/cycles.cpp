@@ -166,6 +166,8 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
                fmt::format("CYCL DEF 32{}: the control smooths the path; corrections smaller than its "
                            "tolerance can vanish",
                            part(r.program.text, {number.end - 2, block.parts[0].end})));
+  if (cycle == 12 && number.line == 1)  // PGM CALL
+    assume_of_calls(r.program, line_of_file(r.program.expansion, block.line));
   const bool state_only = cycle == 7 || cycle == 8 || cycle == 9 || cycle == 10 || cycle == 11 ||
                           cycle == 13 || cycle == 19 || cycle == 26 || cycle == 32;
   if (state_only || number.line != 0) return;

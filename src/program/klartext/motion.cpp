@@ -132,11 +132,22 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
   if (!r.state.cycle_acts_here) {
     move.fixed.fill(true), move.words.fill({}), r.state.known.fill(false);
     r.variables.clear();  // the cycle may call a program that sets them
+    forget_klartext_speeds(r.state);
   }
   note_uncorrected(r, block.line, "cycles are not corrected");
 }
 
-void add_machine_position(const KlartextBlock& block, KlartextReading& r) {
+/// A cycle that is called at a position of the machine is not followed, and may leave the tool anywhere.
+void call_cycle_at_machine_position(KlartextReading& r) {
+  r.state.surface.reset();
+  r.state.known.fill(false);
+  r.variables.clear();
+  forget_klartext_speeds(r.state);
+}
+
+void add_machine_position(const KlartextBlock& block, const KlartextCodes& codes, KlartextReading& r) {
+  const bool calls = codes.cycle_call || r.state.calls_each;
+  if (calls) call_cycle(codes, r, [&] { call_cycle_at_machine_position(r); });
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (find_word(r.words, klartext_axes[axis]) != nullptr) move_by_machine(r, axis);
   r.state.run_begin = r.program.moves.size();
@@ -144,7 +155,7 @@ void add_machine_position(const KlartextBlock& block, KlartextReading& r) {
   add_uncorrected(r, {.line = block.line,
                       .why = "M91 or M92: a position of the machine",
                       .machine_position = true,
-                      .feeds = find_word(r.words, "FMAX") == nullptr});
+                      .feeds = calls || find_word(r.words, "FMAX") == nullptr});
 }
 
 /// The distance of M140 depends on the machine: an inserted word in the next block would move back.
@@ -291,7 +302,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   } else if (is_polar(block)) {
     add_klartext_move(block, codes, r);
   } else if (codes.machine_position && programs_axis(r)) {
-    add_machine_position(block, r);
+    add_machine_position(block, codes, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);
   } else if (codes.cycle_call) {

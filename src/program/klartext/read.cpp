@@ -119,8 +119,7 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
     why += " (--expand-subprograms replaces the call by its text)";
   add_unfollowed_move(block, r, why);
   forget_klartext_speeds(r.state);
-  add_remark(r.program, line_of_file(r.program.expansion, block.line),
-             "assumed: called programs do not change the datum, the coordinates and the tool");
+  assume_of_calls(r.program, line_of_file(r.program.expansion, block.line));
 }
 
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
@@ -313,8 +312,10 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
     if (!r.program.moves.empty()) call_relative_cycle(block, r, r.program.moves.back());
     return;
   }
-  if (!r.state.cycle_acts_here || !r.state.displacements.empty() || may_skip_or_repeat(r))
+  if (!r.state.cycle_acts_here || !r.state.displacements.empty() || may_skip_or_repeat(r)) {
+    if (!r.state.cycle_acts_here) forget_klartext_speeds(r.state);  // it may be a program
     return add_unfollowed_move(block, r, "cycles are not corrected");
+  }
   Move move = begin_klartext_move(block, r);
   r.state.known[2] = false;
   move.fixed[2] = !take_hole(r, move);

@@ -277,6 +277,16 @@ void note_uncorrected(RobotReading& r, const RobotLine& line, std::string why) {
   r.program.left_alone.push_back({.line = line.line, .why = std::move(why)});
 }
 
+void note_cutting_call(RobotReading& r, const RobotLine& line, std::string why) {
+  r.last_reason = why;
+  r.program.left_alone.push_back({.line = line.line, .why = std::move(why), .feeds = true});
+}
+
+void note_unread_call(RobotReading& r, const RobotLine& line, std::string why) {
+  note_cutting_call(r, line, std::move(why));
+  assume_of_calls(r.program, line.line);
+}
+
 void forget_position(RobotReading& r) {
   r.state.joints.reset();
   forget_coordinates(r);

@@ -97,6 +97,12 @@ void add_joint_move(RobotReading& reading, const RobotLine& line, std::string wh
 /// Lists an uncorrected statement. Of a run of equal reasons only the first is listed.
 void note_uncorrected(RobotReading& reading, const RobotLine& line, std::string why);
 
+/// The call of a routine that may cut: a feed move of unknown length.
+void note_cutting_call(RobotReading& reading, const RobotLine& line, std::string why);
+
+/// The same of a routine that is not read, with the remark that states what it must not change.
+void note_unread_call(RobotReading& reading, const RobotLine& line, std::string why);
+
 /// The position and orientation of the tool are unknown until they are programmed.
 void forget_position(RobotReading& reading);
 

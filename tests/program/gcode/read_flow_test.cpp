@@ -93,6 +93,14 @@ TEST_CASE("the body of a subprogram does not run at its place, and a call may mo
   CHECK(call.moves[1].fixed == std::array<bool, 3>{true, true, true});
   CHECK(call.moves[1].known_end == std::array<bool, 3>{false, false, false});
   CHECK_FALSE(is_fixed(call.moves[2]));
+  REQUIRE(call.remarks.size() == 1);
+  CHECK(call.remarks[0].line == 2);
+  CHECK(
+      call.remarks[0].what ==
+      "assumed from here on: called programs do not change the unit, the work offset, the coordinates "
+      "(shift, "
+      "rotation, mirror image, scale, tilt), the tool, its length, G40 to G42 and G93 to G97; see that their "
+      "text agrees");
   CHECK(fixed_moves("M98 P100\nX5\nG90 G0 X6\n", "fanuc") == Fixed{true, true, false});
   CHECK(fixed_moves("G65 P9010 I1. J2. I3.\nG90 G17 G98 G40 G0 X6.\n", "fanuc") == Fixed{true, false});
 }

@@ -122,7 +122,24 @@ TEST_CASE("klartext: the report shows what is assumed of calls") {
   REQUIRE(program.remarks.size() == 1);
   CHECK(program.remarks[0].line == 3);
   CHECK(program.remarks[0].what ==
-        "assumed: called programs do not change the datum, the coordinates and the tool");
+        "assumed from here on: called programs do not change the datum, the coordinates (shift, rotation, "
+        "mirror image, scale, tilt, M128) and the tool; see that their text agrees");
+}
+
+TEST_CASE("klartext: a program that is called as a cycle may set the feed, and is a feed move at each call") {
+  const std::string definition = "CYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM B";
+  for (const char* call : {"CYCL CALL", "L Z+0 FMAX M91 M99", "L X+5 FMAX M99", "M99"}) {
+    CAPTURE(call);
+    const Program program =
+        read(klartext({"L X+0 Y+0 Z+0 F100", definition, call, "L X+0 Y+0 Z+5 FMAX", "L X+9"}));
+    CHECK(program.moves.back().feed_mm_min == 0);
+    CHECK_FALSE(any_axis(program.moves[program.moves.size() - 2].known_start));
+    const bool is_machine_position = program.left_alone.at(0).machine_position;
+    CHECK((is_machine_position ? program.left_alone[0].feeds : program.moves[1].fixed[2]));
+    REQUIRE(program.remarks.size() == 1);
+    CHECK(program.remarks[0].line == 4);
+    CHECK(program.remarks[0].what.starts_with("assumed from here on: called programs do not change"));
+  }
 }
 
 TEST_CASE("klartext: the numbers of labels may have leading zeros") {

@@ -181,6 +181,8 @@ std::vector<std::string> header_of(const Options& options, const Run& run) {
   add_tools(run, lines);
   add_forces(options, run, lines);
   add_reading(run, lines);
+  if (const auto line = first_unread_call(run.program))
+    lines.push_back(fmt::format("CALLED PROGRAMS FROM LINE {} ON MUST KEEP OFFSETS AND TOOL", *line));
   if (options.only_significant) lines.push_back(std::string(only_significant_mark) + ", REST AS PROGRAMMED");
   for (std::string& line : lines) line.insert(0, header_mark);
   return lines;

@@ -124,11 +124,7 @@ void read_call(const Block& block, Reading& r) {
   forget_speeds(r.state);
   r.state.unknown_modes |=
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
-  if (!word.empty()) return;
-  add_remark(
-      r.program, block.line,
-      "assumed: subprograms do not change the unit, the work offset, the tool length, G40 to G42 and G93 to "
-      "G97");
+  if (word.empty()) assume_of_calls(r.program, block.line);
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {

@@ -64,7 +64,7 @@ std::string_view shown(const TpReading& r, const RobotLine& line) {
 void read_call(TpReading& r, const RobotLine& line) {
   forget_tp_state(r);
   forget_tp_frames(r, line.line);
-  note_uncorrected(r.robot, line,
+  note_unread_call(r.robot, line,
                    fmt::format("'{}' may move the robot, or set its frames and tools", shown(r, line)));
 }
 

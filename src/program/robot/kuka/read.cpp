@@ -138,10 +138,10 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   forget_position(r.robot);
   r.robot.state.external = {};
   r.robot.state.moved_by_machine = true;
-  if (routine == nullptr || !routine->cuts)
-    return note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
-  note_uncorrected(r.robot, line, fmt::format("'{}' is not followed: its motions are not corrected", name));
-  r.robot.program.left_alone.back().feeds = true;
+  const std::string why = fmt::format("the call of '{}' may move the robot", name);
+  if (routine == nullptr || routine->calls_unread) return note_unread_call(r.robot, line, why);
+  if (!routine->cuts) return note_uncorrected(r.robot, line, why);
+  note_cutting_call(r.robot, line, fmt::format("'{}' is not followed: its motions are not corrected", name));
 }
 
 /// Routines of the file that an expression, TRIGGER or INTERRUPT behind the first word of the line calls.

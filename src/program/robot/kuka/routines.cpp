@@ -216,7 +216,8 @@ bool KrlScan::is_local(std::string_view variable) const {
 KrlRoutine KrlScan::called(const std::string& name, bool as_statement) const {
   if (const KrlRoutine* const known = facts_.find(name)) return *known;
   const bool motionless = is_among(name, pure_functions) || is_motionless_call(name);
-  return {.moves = as_statement && !motionless, .acts = true};
+  const bool unread = as_statement && !motionless;
+  return {.moves = unread, .calls_unread = unread, .acts = true};
 }
 
 void KrlScan::close_over_calls() {
@@ -232,6 +233,7 @@ void KrlScan::close_over_calls() {
         const KrlRoutine of = called(call.first, call.second);
         add(entry.second.moves, of.moves);
         add(entry.second.cuts, of.cuts);
+        add(entry.second.calls_unread, of.calls_unread);
         add(entry.second.selects_frame, of.selects_frame);
         add(entry.second.selects_tool, of.selects_tool);
         add(entry.second.acts, of.acts);

@@ -16,6 +16,7 @@ namespace counterflex {
 struct KrlRoutine {
   bool moves = false;          ///< it moves the robot, or calls what may do so
   bool cuts = false;           ///< it has linear or circular motions
+  bool calls_unread = false;   ///< it calls a routine of another file, as a statement
   bool selects_frame = false;  ///< $BASE, or a call of BAS that may set it
   bool selects_tool = false;
   bool acts = false;             ///< it does more than set speeds

@@ -18,6 +18,10 @@ std::string key(std::string_view name, std::size_t routine) {
 
 }  // namespace
 
+RapidModule::RapidModule(const RapidNames& routines, RapidNames still) : still_(std::move(still)) {
+  for (const std::string& name : routines) routines_[name];
+}
+
 std::size_t RapidModule::routine_at(std::size_t at) const {
   const auto next =
       std::upper_bound(sections_.begin(), sections_.end(), at,

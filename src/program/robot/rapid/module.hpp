@@ -30,8 +30,10 @@ using RapidRoutines = std::map<std::string, RapidRoutine, std::less<>>;  ///< by
 
 class RapidModule {
  public:
-  /// `still`: the routines of a module that is not scanned.
-  explicit RapidModule(RapidNames still = {}) : still_(std::move(still)) {}
+  RapidModule() = default;
+
+  /// A module that is not scanned, with the names of its routines and of those that do not move the robot.
+  RapidModule(const RapidNames& routines, RapidNames still);
 
   /// Adds the declaration, the parameters or the routine that `statement` begins.
   void declare(std::string_view text, const RapidStatement& statement);
@@ -76,7 +78,8 @@ class RapidScan {
   void add(std::string_view lines);
   bool depends_on_far_lines() const { return far_; }
 
-  /// The routines that do not move the robot, of a module that is not read as a whole.
+  /// Of a module that is not read as a whole: its routines, and those that do not move the robot.
+  RapidNames routines() const { return still_.all(); }
   RapidNames still_routines() const { return still_.finish(); }
 
  private:

@@ -89,7 +89,10 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
   if (r.module.has_still_routine(head)) return;
   forget(r);
   r.any_configuration = r.any_joint_configuration = false;
-  note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+  const std::string why = fmt::format("the call of '{}' may move the robot", name);
+  if (!r.module.has_routine(head)) return note_unread_call(r.robot, line, why);
+  if (r.module.calls("CIRPATHMODE")) r.circle_path = "UNKNOWN";
+  note_uncorrected(r.robot, line, why);
 }
 
 /// A motion is corrected in its line, and inserted statements precede the line.

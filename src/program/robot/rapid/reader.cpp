@@ -10,7 +10,8 @@ namespace counterflex {
 RapidReader::RapidReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
                          Outline outline)
     : RobotReader(file, options, dialect, std::move(outline), rapid_comment, OrientationForm::quaternion),
-      rapid_{reading(), this->outline().named_targets, RapidModule(this->outline().still_routines)} {}
+      rapid_{reading(), this->outline().named_targets,
+             RapidModule(this->outline().routines, this->outline().still_routines)} {}
 
 /// Points inserted into `last` limit the zone at its start, which is written in the same window.
 bool RapidReader::may_end_before(const Move& last, bool anywhere) const {

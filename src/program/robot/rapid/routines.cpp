@@ -53,6 +53,12 @@ bool StillRoutines::may_be_still(const Body& body) const {
   });
 }
 
+RapidNames StillRoutines::all() const {
+  RapidNames names;
+  for (const auto& entry : bodies_) names.insert(entry.first);
+  return names;
+}
+
 RapidNames StillRoutines::finish() const {
   RapidNames still;
   for (const auto& [name, body] : bodies_)

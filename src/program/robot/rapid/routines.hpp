@@ -21,6 +21,9 @@ class StillRoutines {
   /// The names of these routines.
   RapidNames finish() const;
 
+  /// The names of all routines.
+  RapidNames all() const;
+
  private:
   struct Body {
     bool moves = false;

@@ -64,8 +64,10 @@ void run_function(UrReading& r, const RobotLine& line, std::string_view name) {
   forget_position(r.robot);
   r.robot.state.moved_by_machine = true;
   r.tool.clear();
-  if (!r.names.functions.contains(name)) r.names.last_unknown_call = line.code.begin;
-  note_uncorrected(r.robot, line, fmt::format("the call of '{}' may move the robot", name));
+  const std::string why = fmt::format("the call of '{}' may move the robot", name);
+  if (r.names.functions.contains(name)) return note_uncorrected(r.robot, line, why);
+  r.names.last_unknown_call = line.code.begin;
+  note_unread_call(r.robot, line, why);
 }
 
 /// A function of the program in an expression, in arguments or in "run thread()".

@@ -40,7 +40,7 @@ void read_call(JbiReading& r, const RobotLine& line, std::string_view what) {
   forget(r);
   r.speed_mm_s = 0;
   if (r.call_line == 0) r.call_line = line.line;
-  note_uncorrected(r.robot, line, fmt::format("'{}' may move the robot", what));
+  note_unread_call(r.robot, line, fmt::format("'{}' may move the robot", what));
 }
 
 /// SPEED V=100: for the steps behind it that have no speed.

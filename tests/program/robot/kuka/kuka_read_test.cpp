@@ -289,9 +289,27 @@ TEST_CASE("a routine of the file without motions leaves the position, and one th
   CHECK(cuts.left_alone[0].feeds);
   CHECK(cuts.left_alone[0].why == "'part' is not followed: its motions are not corrected");
   CHECK_FALSE(all_known(cuts.moves[1].known_start));
-  const Program unknown = read("");
-  REQUIRE(unknown.left_alone.size() == 1);
-  CHECK_FALSE(unknown.left_alone[0].feeds);
+}
+
+TEST_CASE("a routine of another KRL file may cut, and the report shows what it must not change") {
+  const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  for (const std::string routine : {"", "DEF part()\nSPINDLE(1)\nEND\n"}) {
+    CAPTURE(routine);
+    const Program program = read_krl("DEF job()\n" + line + "part()\n" + line + "END\n" + routine);
+    REQUIRE(program.left_alone.size() == 1);
+    CHECK(program.left_alone[0].feeds);
+    CHECK(program.left_alone[0].why == "the call of 'part' may move the robot");
+    REQUIRE(!program.remarks.empty());
+    CHECK(program.remarks[0].line == 3);
+    CHECK(program.remarks[0].what ==
+          "assumed from here on: called programs do not change $BASE, $TOOL, $VEL, $ORI_TYPE and $CIRC_TYPE; "
+          "see that their text agrees");
+  }
+  const std::string joint = "DEF part()\nPTP {A1 0,A2 0,A3 0,A4 0,A5 0,A6 0}\nEND\n";
+  const Program own = read_krl("DEF job()\n" + line + "part()\n" + line + "END\n" + joint);
+  REQUIRE(own.left_alone.size() == 1);
+  CHECK_FALSE(own.left_alone[0].feeds);
+  for (const Remark& remark : own.remarks) CHECK_FALSE(remark.what.starts_with("assumed"));
 }
 
 TEST_CASE("a routine of the file in an expression, TRIGGER or INTERRUPT acts as in a call") {

@@ -136,6 +136,40 @@ TEST_CASE(
   for (const std::string& call : moving) check(call, false);
 }
 
+TEST_CASE("a routine of another RAPID module may cut, also in a module that is read in windows") {
+  const std::string motion = "MoveJ " + target_at("1,2,3") + ",v100,fine,tool0;\n";
+  for (const std::string declarations : {"", "CONST num n:=1;\nPROC lift(num z)\nENDPROC\n"}) {
+    CAPTURE(declarations);
+    const auto read = [&](const std::string& call) {
+      std::string text = module_of(declarations, motion + call + motion);
+      text.insert(text.rfind("ENDMODULE"), "PROC own()\n" + motion + "ENDPROC\n");
+      CHECK(outline_of(text, *find_dialect(abb_name)).named_targets == !declarations.empty());
+      return read_rapid(text);
+    };
+    const Program own = read("own;\n"), other = read("other;\n");
+    REQUIRE(own.left_alone.size() == 1);
+    CHECK_FALSE(own.left_alone[0].feeds);
+    CHECK(own.remarks.empty());
+    REQUIRE(other.left_alone.size() == 1);
+    CHECK(other.left_alone[0].feeds);
+    REQUIRE(other.remarks.size() == 1);
+    CHECK(other.remarks[0].what.starts_with(
+        "assumed from here on: called programs do not change work objects and tools"));
+  }
+}
+
+TEST_CASE("behind a routine of the module CirPathMode is not known if the module sets it") {
+  const std::string cut = "MoveJ <0,0,0>,v10,fine,tool0;\n";
+  const auto is_arc = [&](const std::string& call) {
+    const Program program =
+        read_routine("CirPathMode\\ObjectFrame;\n" + call + cut + "MoveC <5,5,0>,<10,0,0>,v10,z1,tool0;\n",
+                     "PROC other()\nCirPathMode\\ToolFrame;\nENDPROC\n");
+    return program.moves.back().arc.has_value();
+  };
+  CHECK(is_arc(""));
+  CHECK_FALSE(is_arc("other;\n"));
+}
+
 TEST_CASE("bodies, handlers and interrupts are not followed, calls make the position unknown") {
   const Program program = read_routine(
       "MoveJ <0,0,0>,v10,fine,tool0;\n"

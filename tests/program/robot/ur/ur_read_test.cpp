@@ -222,6 +222,20 @@ TEST_CASE("another tool makes the position unknown, the same tool does not") {
   CHECK(!program.moves[3].known_start[0]);
 }
 
+TEST_CASE("a function that is not in the script may cut, and the report shows what it must not change") {
+  const auto read = [](const std::string& call) {
+    return read_ur_statements("def own():\nend\nmovel(p[0,0,0,0,0,0])\n" + call +
+                              "\nmovel(p[0.1,0,0,0,0,0])\n");
+  };
+  const Program own = read("own()"), other = read("other()");
+  CHECK_FALSE(own.left_alone.back().feeds);
+  CHECK(own.remarks.empty());
+  CHECK(other.left_alone.back().feeds);
+  REQUIRE(other.remarks.size() == 1);
+  CHECK(other.remarks[0].what.starts_with(
+      "assumed from here on: called programs do not change features and the tool centre point"));
+}
+
 TEST_CASE("what URScript shifts at run time, and text that is not a program, is refused with its line") {
   CHECK(refusal_of_ur("\nforce_mode(p[0,0,0,0,0,0])\n")
             .starts_with("job.script:3:1: error: force_mode shifts"));

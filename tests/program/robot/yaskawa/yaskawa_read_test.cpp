@@ -153,6 +153,9 @@ TEST_CASE("the place of the robot is unknown behind a label, a call and an unkno
     REQUIRE(program.moves.size() == 2);
     CHECK(!all_known(program.moves[1].known_start));
     CHECK(all_known(program.moves[1].known_end));
+    const bool calls = !between.starts_with("*");
+    CHECK((!program.left_alone.empty() && program.left_alone.back().feeds) == calls);
+    CHECK((!program.remarks.empty() && program.remarks[0].what.starts_with("assumed from here on")) == calls);
   }
   for (const std::string between : {"DOUT OT#(1) ON\n", "TIMER T=1.00\n", "WAIT IN#(1)=ON\n", "SET B000 1\n"})
     CHECK(all_known(read_steps("MOVL C00001 V=10\n" + between + "MOVL C00002 V=10\n").moves[1].known_start));
