@@ -122,6 +122,30 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
   assume_of_calls(r.program, line_of_file(r.program.expansion, block.line));
 }
 
+/// What a probing cycle sets behind its measurement; empty for one that only measures.
+std::string_view set_by_probe(int cycle) {
+  if (cycle >= 400 && cycle <= 405) return "turns the coordinates (basic rotation)";
+  if (cycle >= 408 && cycle <= 419) return "sets the datum";
+  if (cycle >= 450 && cycle <= 453) return "may change the kinematics of the machine";
+  if (cycle >= 1400 && cycle <= 1499) return "may set the datum or turn the coordinates";
+  return {};
+}
+
+/// `TCH PROBE 411 DATUM OUTS. RECTAN. ~`
+void read_probe(const KlartextBlock& block, KlartextReading& r) {
+  constexpr int displacement_of_probe = 1400;
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  int cycle = 0;
+  const std::size_t digit = std::min(rest.find_first_of("0123456789"), rest.size());
+  std::from_chars(rest.data() + digit, rest.data() + rest.size(), cycle);
+  const std::string_view sets = set_by_probe(cycle);
+  forget_klartext_speeds(r.state);
+  add_unfollowed_move(block, r,
+                      sets.empty() ? fmt::format("TCH PROBE {} is not supported", cycle)
+                                   : fmt::format("TCH PROBE {} {}: coordinates are unknown", cycle, sets));
+  if (!sets.empty()) r.state.displacements[displacement_of_probe] = r.last_reason;
+}
+
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
   const std::string rest = squeezed(after_head(r.program.text, block));
   const bool resets = rest.starts_with("RESET");
@@ -184,6 +208,7 @@ constexpr std::array statement_readers{
     KnownStatement{"DEP", read_klartext_approach},
     KnownStatement{"PLANE", read_plane},
     KnownStatement{"TRANS", read_transformation},
+    KnownStatement{"TCH", read_probe},
     KnownStatement{"BEGIN", read_begin},
     KnownStatement{"END", read_end},
     KnownStatement{"BLK", read_nothing},

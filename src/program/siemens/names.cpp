@@ -127,8 +127,8 @@ bool is_siemens_operator(std::string_view name) {
 }
 
 bool is_cycle_name(std::string_view name) {
-  return std::any_of(cycle_families.begin(), cycle_families.end(),
-                     [&](std::string_view family) { return is_word(name.substr(0, family.size()), family); });
+  const std::string_view family = name.substr(0, name.find_last_not_of("0123456789") + 1);
+  return is_one_of(family, cycle_families);
 }
 
 }  // namespace counterflex

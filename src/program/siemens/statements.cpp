@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include "counterflex/files/text.hpp"
@@ -115,6 +116,14 @@ void call_subprogram(const Block& block, Reading& r) {
   read_call(block, r);
 }
 
+/// Measuring cycles that may write a work offset, or the kinematics of the machine, with what they measure.
+bool measures_offset(const Block& block, const Reading& r) {
+  constexpr auto cycles =
+      std::to_array<std::string_view>({"CYCLE961", "CYCLE974", "CYCLE977", "CYCLE978", "CYCLE979", "CYCLE994",
+                                       "CYCLE996", "CYCLE997", "CYCLE998"});
+  return is_one_of(part(r.program.text, block.statement_text).substr(0, cycles[0].size()), cycles);
+}
+
 /// Cycles move according to their arguments and restore modal states.
 void run_cycle(const Block& block, Reading& r) {
   const std::string_view why = why_not_followed(r);
@@ -129,6 +138,7 @@ void run_cycle(const Block& block, Reading& r) {
                                : why);
   finish_move(r, move);
   r.run_begin = r.program.moves.size();
+  if (measures_offset(block, r)) set_control_variable(block, r, {});
 }
 
 }  // namespace

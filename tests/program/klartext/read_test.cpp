@@ -142,6 +142,32 @@ TEST_CASE("klartext: a program that is called as a cycle may set the feed, and i
   }
 }
 
+TEST_CASE("klartext: coordinates are unknown behind a probing cycle that sets them") {
+  const auto why = [](const std::string& probe) {
+    const Program program = read(
+        klartext({"L X+0 Y+0 Z+0 FMAX", probe, "CYCL DEF 247 Q339=+1", "L X+1 Y+0 Z+0 FMAX", "L X+9 F100"}));
+    const bool is_known = all_known(program.moves.back().known_start);
+    CHECK(is_known == (program.left_alone.size() == 1 && program.left_alone[0].why.ends_with("supported")));
+    return program.left_alone.back().why;
+  };
+  CHECK(why("TCH PROBE 411 DATUM OUTS. RECTAN. ~\n    Q321=+50 ;CENTER") ==
+        "TCH PROBE 411 sets the datum: coordinates are unknown");
+  CHECK(why("TCH PROBE 408 SLOT CENTER REF PT") == "TCH PROBE 408 sets the datum: coordinates are unknown");
+  CHECK(why("TCH PROBE 419 DATUM") == "TCH PROBE 419 sets the datum: coordinates are unknown");
+  CHECK(why("TCH PROBE 400 BASIC ROTATION") ==
+        "TCH PROBE 400 turns the coordinates (basic rotation): coordinates are unknown");
+  CHECK(why("TCH PROBE 451 MEASURE KINEMATICS") ==
+        "TCH PROBE 451 may change the kinematics of the machine: coordinates are unknown");
+  CHECK(why("TCH PROBE 1410 PROBING ON EDGE") ==
+        "TCH PROBE 1410 may set the datum or turn the coordinates: coordinates are unknown");
+  for (const int measuring : {407, 420, 421, 431}) {
+    CAPTURE(measuring);
+    CHECK(why(fmt::format("TCH PROBE {} MEASURE", measuring)) ==
+          fmt::format("TCH PROBE {} is not supported", measuring));
+  }
+  CHECK(why("TCH PROBE 0.0 REF. PLANE Q5 X-") == "TCH PROBE 0 is not supported");
+}
+
 TEST_CASE("klartext: the numbers of labels may have leading zeros") {
   for (const char* blocks : {"LBL 05\nL IX+1\nCALL LBL 5 REP 2\n", "LBL 5\nL IX+1\nCALL LBL 005 REP 2\n",
                              "LBL 05\nL IX+1\nFN 9: IF +Q1 EQU +0 GOTO LBL 5\n"}) {

@@ -372,7 +372,7 @@ TEST_CASE("siemens: the program continues behind a RET that may not run") {
 
 TEST_CASE(
     "siemens: coordinates that a variable of the control sets stay unknown until a statement sets them") {
-  const std::string set = "a variable of the control has set the coordinates", move = "G0 X5 Y5 Z5\n";
+  const std::string set = "a variable or a measuring cycle has set the coordinates", move = "G0 X5 Y5 Z5\n";
   CHECK(why_last("$P_UIFR[1,Y,TR]=500\nG54\n" + move) == set);
   CHECK(why_last("/$P_UIFR[ 1 ]=CTRANS(Y,500)\nG54\n" + move) == set);
   CHECK(why_last("$P_UIFR[R1,Y,TR]=500\nG55\n" + move) == set);
@@ -390,6 +390,22 @@ TEST_CASE(
   }
   CHECK(why_last("$P_IFRAME=CTRANS(Y,500)\n" + move).starts_with("its work offset is unknown"));
   CHECK(why_last("$P_IFRAME=CTRANS(Y,500)\nG54\n" + move).empty());
+}
+
+TEST_CASE("siemens: a measuring cycle may write the work offset; names like those of cycles are calls") {
+  const std::string move = "G0 X5 Y5 Z5\n";
+  for (const char* cycle : {"CYCLE977(1,0,1,1)", "cycle978(1)", "CYCLE996(101)"}) {
+    CAPTURE(cycle);
+    CHECK(why_last(std::string(cycle) + "\nG54\n" + move) ==
+          "a variable or a measuring cycle has set the coordinates");
+  }
+  CHECK(why_last("CYCLE971(1,0)\nG54\n" + move).empty());
+  const auto why = [](const std::string& line) {
+    return siemens(std::string(siemens_start) + line + "\n").left_alone.at(0).why;
+  };
+  CHECK(why("HOLES_TOP(5)") == "a subprogram is called");
+  CHECK(why("CYCLE_CLEAN") == "a subprogram is called");
+  CHECK(why("CYCLE63(5)").starts_with("this cycle of the control is not supported"));
 }
 
 TEST_CASE("siemens: statements without an effect on coordinates are read") {

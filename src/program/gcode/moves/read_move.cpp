@@ -97,7 +97,7 @@ std::string_view displacement_text(const Reading& r) {
   if ((bits & unknown) != 0) return "an unknown code may be active";
   if ((bits & tilted) != 0) return "coordinates are tilted";
   if ((bits & data) != 0)
-    return r.dialect.sinumerik_words ? "a variable of the control has set the coordinates"
+    return r.dialect.sinumerik_words ? "a variable or a measuring cycle has set the coordinates"
                                      : "G10 has set the work offset";
   return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
 }
