@@ -36,8 +36,8 @@ void RobotReader::read_comment(const RobotLine& line) {
 
 bool RobotReader::may_end_before(const Move& last, bool anywhere) const {
   const bool across = last.words[0] || last.words[1] || anywhere;
-  return across && all_known(last.known_start) && !last.arc && last.handling == Handling::own &&
-         reading_.open_bodies == 0;
+  return across && all_known(last.known_start) && !last.arc && !last.block_delete &&
+         last.handling == Handling::own && reading_.open_bodies == 0;
 }
 
 void RobotReader::resume_behind(std::size_t read) {

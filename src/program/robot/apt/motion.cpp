@@ -98,6 +98,9 @@ void read_apt_point(AptReading& r, const RobotLine& line, const AptStatement& st
   const std::string why = target ? why_not_followed(r, *target, motion) : why_no_target(statement);
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
   add_target_move(r.robot, line, *target, {.motion = motion, .passes = true, .rounds = false});
+  if (!r.may_skip) return;
+  r.robot.program.moves.back().block_delete = true;
+  forget_position(r.robot);
 }
 
 void read_apt_circle(AptReading& r, const AptStatement& statement) {

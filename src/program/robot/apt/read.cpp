@@ -142,10 +142,11 @@ void read_spindle(AptReading& r, const AptStatement& statement) {
   set_feed(r);
 }
 
+/// A tool that the control may not change to is unknown.
 void select_tool(AptReading& r, const AptStatement& statement) {
   const double number = first_number(r, statement).value_or(0);
   const bool is_number = number >= 0 && number == static_cast<std::int32_t>(std::min(number, 1e9));
-  enter_robot_tool(r.robot, is_number ? static_cast<std::int32_t>(number) : 0);
+  enter_robot_tool(r.robot, is_number && !r.may_skip ? static_cast<std::int32_t>(number) : 0);
 }
 
 /// Another tool offset, or the end of the program in the control: a post may move the axes there.
@@ -187,7 +188,7 @@ void read_tool_axis(AptReading& r, const RobotLine& line, const AptStatement& st
   enter_robot_frame(r.robot, frame);
 }
 
-/// Of CYCLE/ and CUTCOM/.
+/// Of OPSKIP/, CYCLE/ and CUTCOM/.
 bool is_switched_on(const AptReading& r, const AptStatement& statement) {
   return statement.parameters.empty() ||
          apt_word(part(r.robot.program.text, statement.parameters[0])) != "OFF";
@@ -212,9 +213,9 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
   else if (head == "TLAXIS")
     read_tool_axis(r, line, statement);
   else if (head == "CUTCOM")
-    r.in_cutcom = is_switched_on(r, statement);
+    r.in_cutcom = is_switched_on(r, statement) || (r.may_skip && r.in_cutcom);
   else if (head == "CYCLE")
-    r.in_cycle = is_switched_on(r, statement);
+    r.in_cycle = is_switched_on(r, statement) || (r.may_skip && r.in_cycle);
   else if (head == "SWITCH" || head == "REWIND" || head == "END")
     lose_position(r);
   else

@@ -220,6 +220,35 @@ TEST_CASE(
   CHECK(last("OPSKIP/ON\nSPINDL/3000,CLW\nFEDRAT/100,MMPM\nOPSKIP/OFF\n").feed_mm_min == 0);
 }
 
+TEST_CASE("points between OPSKIP/ON and OPSKIP/OFF may be skipped as blocks with '/'") {
+  const Program program = read_apt(
+      "UNITS/MM\nLOADTL/1\nFEDRAT/200,MMPM\nGOTO/0,0,5\nOPSKIP/ON\nGOTO/1,0,5\nGOTO/2,0,5\nLOADTL/2\nGOTO/"
+      "2,0,4\n"
+      "OPSKIP/OFF\nGOTO/3,0,5\nGOTO/4,0,5\n");
+  std::vector<bool> skippable, starts;
+  for (const Move& move : program.moves) {
+    skippable.push_back(move.block_delete);
+    starts.push_back(all_known(move.known_start));
+    CHECK(all_known(move.known_end));
+  }
+  CHECK(skippable == std::vector{false, true, true, true, false, false});
+  CHECK(starts == std::vector{false, true, false, false, false, true});
+  CHECK(program.moves[2].tool == 1);
+  CHECK(program.moves[4].tool == 0);
+}
+
+TEST_CASE("CUTCOM/ and CYCLE/ that the control may not end still act") {
+  const auto is_followed = [](const std::string& lines) {
+    return !read_apt("UNITS/MM\nGOTO/0,0,5\n" + lines + "GOTO/1,0,5\n").moves.back().fixed[0];
+  };
+  for (const std::string word : {"CUTCOM/", "CYCLE/"}) {
+    CAPTURE(word);
+    CHECK(is_followed(word + "LEFT\n" + word + "OFF\n"));
+    CHECK_FALSE(is_followed(word + "LEFT\nOPSKIP/ON\n" + word + "OFF\nOPSKIP/OFF\n"));
+    CHECK_FALSE(is_followed("OPSKIP/ON\n" + word + "LEFT\nOPSKIP/OFF\n"));
+  }
+}
+
 TEST_CASE("the points on the circle of CIRCLE/ are not followed: its centre would not be corrected") {
   const std::string text =
       "UNITS/MM\n"
