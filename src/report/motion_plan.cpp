@@ -5,6 +5,7 @@
 #include <tuple>
 
 #include "counterflex/toolpath/toolpath.hpp"
+#include "report/tally/may_cut.hpp"
 
 namespace counterflex {
 namespace {
@@ -13,8 +14,8 @@ constexpr std::size_t look_ahead = 64;  // blocks
 
 enum class MoveHandling { corrected, held, grouped, left };
 
-void add_length(const Move& move, CutLength& cut) {
-  if (move.motion != Motion::feed) return;
+void add_length(const Move& move, const Program& program, CutLength& cut) {
+  if (move.motion != Motion::feed && !may_cut(move, program)) return;
   if (all_known(move.known_start) && all_known(move.known_end))
     cut.known_mm += length(curve_of(move));
   else
@@ -101,22 +102,23 @@ class MotionPlanner::Window {
     switch (handling_of(m)) {
       case MoveHandling::corrected:
         ++plan_.corrected;
-        add_length(move, plan_.corrected_cut);
+        add_length(move, program_, plan_.corrected_cut);
         break;
       case MoveHandling::held:
         ++plan_.held;
-        add_length(move, plan_.held_cut);
-        add_length(move, row_of(plan_.held_rows, why_held(move), move.line, false).cut);
+        add_length(move, program_, plan_.held_cut);
+        add_length(move, program_, row_of(plan_.held_rows, why_held(move), move.line, false).cut);
         break;
       case MoveHandling::grouped:
         ++plan_.grouped;
-        add_length(move, plan_.grouped_cut);
+        add_length(move, program_, plan_.grouped_cut);
         add_to_group(move);
         break;
       case MoveHandling::left:
         ++plan_.not_corrected;
-        add_length(move, plan_.left_cut);
-        add_length(move, row_of(plan_.left_rows, why_left(move), move.line, any_axis(move.fixed)).cut);
+        add_length(move, program_, plan_.left_cut);
+        add_length(move, program_,
+                   row_of(plan_.left_rows, why_left(move), move.line, any_axis(move.fixed)).cut);
         break;
     }
     count_kind(move);

@@ -129,6 +129,19 @@ TEST_CASE("of a long run only the first lines are listed") {
   CHECK(plan.left_rows[0].lines.size() == lines_of_row);
 }
 
+TEST_CASE("a call that is not followed is a feed move of unknown length, as in the verdict") {
+  Program program = three_moves();
+  Move& call = program.moves[1];
+  call.motion = Motion::rapid;
+  CHECK(motion_plan(program).left_cut.unknown == 0);
+  call.fixed.fill(true);
+  call.known_end.fill(false);
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.left_cut.unknown == 1);
+  REQUIRE(plan.left_rows.size() == 1);
+  CHECK(plan.left_rows[0].cut.unknown == 1);
+}
+
 TEST_CASE("a plan has shares of the cutting length, and its rows the most costly first") {
   Program program =
       ProgramBuilder({0, 0, 0}).feed({10, 0, 0}, 100).feed({10, 1, 0}, 100).feed({10, 1, 5}, 100).program;

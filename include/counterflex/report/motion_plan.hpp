@@ -14,7 +14,7 @@ namespace counterflex {
 /// How much is cut.
 struct CutLength {
   double known_mm = 0;      ///< of feed moves whose start and end are known
-  std::size_t unknown = 0;  ///< other feed moves
+  std::size_t unknown = 0;  ///< other feed moves, and calls and cycles that are not followed
 };
 
 /// Blocks that share a fate and its reason.

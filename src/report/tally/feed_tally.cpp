@@ -2,6 +2,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "report/tally/may_cut.hpp"
 
 namespace counterflex {
 namespace {
@@ -9,13 +10,6 @@ namespace {
 bool rests(const Move& move) {
   return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) &&
          all_known(move.known_start) && all_known(move.known_end) && move.start_mm == move.end_mm;
-}
-
-// A block whose motion is not computed may cut: a call, or in Klartext a cycle that moves Z. Rapids to three
-// variables look the same and count, too, so that no cut is missed.
-bool may_cut(const Move& move, const Program& program) {
-  if (program.dialect == "heidenhain" && move.fixed[2]) return true;
-  return move.fixed[0] && move.fixed[1] && move.fixed[2];
 }
 
 // A cycle is called at its end, which is checked.
