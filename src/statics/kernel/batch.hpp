@@ -35,7 +35,7 @@ struct StartCell {
 
   // Of a target's cell:
   std::vector<double> stress;  ///< by element, six numbers: at the centre
-  Polynomials stress_changes;  ///< by element a block: first-order terms alone
+  Polynomials stress_changes;  ///< by element a block: first-order terms, and of a position and a load
   std::vector<double> pivots;  ///< at the centre without a load, actuators held
   /// The second step over the first one, with the tangent of this start: under a load of `load_of_cells` in
   /// its worst direction, and without a load.
@@ -91,6 +91,8 @@ struct Batch {
   /// unknowns (joints, then twists about the wanted tip), and of the nominal platform (a twist), if there is
   /// a real machine.
   std::vector<double> responses;
+  /// And of the stress of the real machine, by variable and element as `stress`, where a load is one.
+  std::vector<double> stress_responses;
 
   int count() const { return static_cast<int>(p.size() / 3); }
 

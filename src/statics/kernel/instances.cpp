@@ -50,6 +50,7 @@ void Solver::solve(const Problem& problem, const Schedule& schedule, Batch& batc
   size(batch.pivots, batch.wants_pivots, unknowns);
   const std::size_t variables = batch.response_to ? static_cast<std::size_t>(batch.response_to->count()) : 0;
   size(batch.responses, variables > 0, variables * (unknowns + (problem.real ? 6 : 0)));
+  size(batch.stress_responses, variables > 0 && problem.real, variables * 6 * machine.elements.size());
   const Instance& instance = by != nullptr ? *by : count == 1 ? scalar_instance : widest;
   instance.solve(memory_of(problem, instance), schedule, batch);
 }

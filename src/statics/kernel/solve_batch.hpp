@@ -38,14 +38,16 @@ void get_state(int l, const Work<T>& work, double* numbers) {
   get(work.state.platform);
 }
 
-template <class T>
-void get_stress(int l, const Work<T>& work, double* numbers) {
+/// Of every spring the wrench `of(terms)` about its end; of groups zero.
+template <class T, class Of>
+void get_wrenches(int l, const Work<T>& work, double* numbers, const Of& of) {
   for (std::size_t i = 0; i < work.machine.elements.size(); ++i, numbers += 6) {
     const ElementTerms<T>& terms = work.equations.elements[i];
-    const Vec3<T> own = terms.phi.w - cross(terms.p, terms.phi.v);
+    const Vec6<T> wrench = of(terms);
+    const Vec3<T> own = wrench.w - cross(terms.p, wrench.v);
     const bool spring = work.machine.elements[i].kind == ElementKind::spring;
     for (int k = 0; k < 3; ++k) {
-      numbers[k] = spring ? lane(terms.phi.v[k], l) : 0;
+      numbers[k] = spring ? lane(wrench.v[k], l) : 0;
       numbers[3 + k] = spring ? lane(own[k], l) : 0;
     }
   }
@@ -161,12 +163,13 @@ template <class T>
 void get_responses(Batch& batch, int first, Coupled<T>& coupled) {
   const long size = coupled.problem.machine().unknowns() + (coupled.problem.real ? 6 : 0);
   const int variables = batch.response_to->count();
+  const long of_elements = 6 * static_cast<long>(coupled.real.machine.elements.size());
   coupled.for_each([](Work<T>& work) {
     Equations<T>& equations = work.equations;
     for (JointTerms<T>& joint : equations.joints) joint.r = T{};
     for (Vec6<T>& node : equations.nodes) node = {};
     equations.platform = equations.tip_error = {};
-    work.predicts_stress = false;
+    work.predicts_stress = true;
   });
   for (int k = 0; k < variables; ++k) {
     const int load = k - batch.response_to->first_load();
@@ -182,7 +185,11 @@ void get_responses(Batch& batch, int first, Coupled<T>& coupled) {
     changed.tip_error = changed.platform = {};
     const Work<T>& work = coupled.first();
     for (int l = 0; l < lane_count<T> && first + l < batch.count(); ++l) {
-      double* numbers = batch.responses.data() + size * (static_cast<long>(variables) * (first + l) + k);
+      const long number = static_cast<long>(variables) * (first + l) + k;
+      if (coupled.problem.real)
+        get_wrenches(l, work, batch.stress_responses.data() + of_elements * number,
+                     [](const ElementTerms<T>& terms) { return terms.stress - terms.phi; });
+      double* numbers = batch.responses.data() + size * number;
       const auto put = [&](const Vec6<T>& twist) {
         for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.v[i], l);
         for (int i = 0; i < 3; ++i) *numbers++ = lane(twist.w[i], l);
@@ -262,7 +269,8 @@ void solve_batch(Memory& memory, const Schedule& schedule, Batch& batch) {
       if (problem.nominal) get_tip(l, coupled.nominal, batch.nominal_tip.data() + 12 * w);
       if (!batch.wants_states) continue;
       get_state(l, first_work, batch.state.data() + static_cast<long>(machine.state_size()) * w);
-      get_stress(l, first_work, batch.stress.data() + 6 * static_cast<long>(machine.elements.size()) * w);
+      get_wrenches(l, first_work, batch.stress.data() + 6 * static_cast<long>(machine.elements.size()) * w,
+                   [](const ElementTerms<T>& terms) { return terms.phi; });
     }
     if (!batch.wants_pivots && !batch.response_to) continue;
     factor_at_solution(coupled);

@@ -14,8 +14,9 @@ constexpr double farthest_cell = 1e9;  // from the origin of M, in edges: their 
 std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
   const auto unknowns = static_cast<std::size_t>(machine.unknowns());
   const kernel::Variables variables{turns, true};
-  const std::size_t numbers = unknowns * (kernel::terms_of(variables).size() + 4) +
-                              6 * machine.elements.size() * static_cast<std::size_t>(1 + variables.count());
+  const auto of_stress = static_cast<std::size_t>(1 + variables.count() + 3 * 6);
+  const std::size_t numbers =
+      unknowns * (kernel::terms_of(variables).size() + 4) + 6 * machine.elements.size() * of_stress;
   return std::max<std::size_t>(2, bytes_of_cells / (sizeof(double) * numbers));
 }
 

@@ -317,6 +317,29 @@ TEST_CASE("kernel: a cell predicts the command of a tip that is moved, turned an
   }
 }
 
+TEST_CASE("kernel: under the force of a cut one step from a cell does on the Orthoglide, nearly always") {
+  const KernelTrial of = kernel_trials()[1];
+  FlatBench bench(of.model);
+  const double step = bench.flat.machine.length / 48;
+  const Pose home = tip(bench.model.mechanism, bench.model.home);
+  const CellPair cells = cells_at(bench, home.p + of.trial.centre, step);
+  Random random(12);
+  constexpr int count = 50;
+  int steps = 0;
+  for (int i = 0; i < count; ++i) {
+    const NominalResult nominal =
+        follow(bench.model, bench.model.home, {home.R, home.p + of.trial.centre + random.vector(step)});
+    REQUIRE(nominal.status == Status::converged);
+    KernelWaypoint waypoint = bench.waypoint(nominal, random.six(100, 0));
+    waypoint.cell = &cells.target, waypoint.nominal_cell = &cells.kinematics;
+    const KernelAnswers answers =
+        bench.solve(bench.target(), {waypoint}, kernel::scalar_instance, kernel::cell_schedule);
+    REQUIRE(answers.accepted(0));
+    steps += answers.batch.iterations[0];
+  }
+  CHECK(steps < 1.2 * count);  // 1.8 without products of a load and two positions, and stress of first order
+}
+
 TEST_CASE("kernel: a chain with more actuators than it has room for is refused") {
   std::string chain = "[[chain]]\nname = \"axes\"\nelements = [\n";
   for (int i = 0; i < 13; ++i)

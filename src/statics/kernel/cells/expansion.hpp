@@ -21,7 +21,7 @@ struct Variables {
 
 inline constexpr int most_variables = Variables{true, true}.count();
 inline constexpr int most_terms =
-    most_variables + most_variables * (most_variables + 1) / 2 + 3 * most_variables + 1;
+    most_variables + most_variables * (most_variables + 1) / 2 + 3 * most_variables + 1 + 3 * 6;
 inline constexpr int no_variable = most_variables;  ///< a factor of 1
 
 /// A product of up to three variables.
@@ -30,7 +30,7 @@ struct Term {
   int of[3]{no_variable, no_variable, no_variable};
 };
 
-/// All terms: x_i; x_i x_j, j >= i; x_i^2 x_j, i a position; x y z.
+/// All terms: x_i; x_i x_j, j >= i; x_i^2 x_j, i a position; x y z; of two positions and a load.
 inline std::vector<Term> terms_of(const Variables& variables) {
   std::vector<Term> terms;
   const auto add = [&](int i, int j = no_variable, int k = no_variable) {
@@ -43,6 +43,7 @@ inline std::vector<Term> terms_of(const Variables& variables) {
   for (int i = 0; i < 3; ++i)
     for (int j = 0; j < n; ++j) add(i, i, j);
   add(0, 1, 2);
+  for (int k = variables.first_load(); k < n; ++k) add(0, 1, k), add(0, 2, k), add(1, 2, k);
   return terms;
 }
 
@@ -65,14 +66,20 @@ struct Block {
   T value[block];
 };
 
+/// The load at a place. Terms with a load, or with a moment, are zero without it.
+enum class Acting { nothing, force, moment };  ///< a moment: with a force or without
+
 /// Polynomials in blocks of six, of the same terms.
 struct Polynomials {
-  std::vector<Term> terms;           ///< of a start: those without a load first
+  std::vector<Term> terms;           ///< those without a load first, those with a moment last
   std::vector<double> coefficients;  ///< by block and term, six numbers
 
-  std::size_t unloaded = 0;  ///< the number of terms before the first with a load
+  std::size_t unloaded = 0, without_moment = 0;  ///< how many terms have no load, and no moment
 
-  std::size_t count(bool is_loaded) const { return is_loaded ? terms.size() : unloaded; }
+  /// How many of the terms may differ from zero.
+  std::size_t count(Acting acting) const {
+    return acting == Acting::nothing ? unloaded : acting == Acting::force ? without_moment : terms.size();
+  }
   double coefficient(int block_number, std::size_t term, int row) const {
     return coefficients[block * (static_cast<std::size_t>(block_number) * terms.size() + term) +
                         static_cast<std::size_t>(row)];

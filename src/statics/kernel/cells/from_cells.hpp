@@ -21,18 +21,18 @@ COUNTERFLEX_INLINE void for_each_cell(const Batch& batch, int first,
   }
 }
 
-/// The terms of polynomials at a point. Those with a load are left out where no lane has one: they are zero.
+/// The terms of polynomials at a point, without those of what acts in no lane.
 template <class T>
 struct TermValues {
   T value[most_terms];
-  bool is_loaded;
+  Acting acting;
 };
 
 template <class T>
-COUNTERFLEX_INLINE void fill(const Polynomials& polynomials, const Point<T>& x, bool is_loaded,
+COUNTERFLEX_INLINE void fill(const Polynomials& polynomials, const Point<T>& x, Acting acting,
                              TermValues<T>& values) {
-  values.is_loaded = is_loaded;
-  for (std::size_t k = 0; k < polynomials.count(is_loaded); ++k)
+  values.acting = acting;
+  for (std::size_t k = 0; k < polynomials.count(acting); ++k)
     values.value[k] = x.value_of(polynomials.terms[k]);
 }
 
@@ -42,7 +42,7 @@ COUNTERFLEX_INLINE Block<T> sum(const Polynomials& polynomials, int block_number
   const double* coefficients = polynomials.coefficients.data() +
                                block * polynomials.terms.size() * static_cast<std::size_t>(block_number);
   Block<T> sum{};
-  for (std::size_t k = 0; k < polynomials.count(values.is_loaded); ++k, coefficients += block) {
+  for (std::size_t k = 0; k < polynomials.count(values.acting); ++k, coefficients += block) {
     COUNTERFLEX_UNROLL
     for (int i = 0; i < block; ++i) sum.value[i] += coefficients[i] * values.value[k];
   }
@@ -79,7 +79,7 @@ void put_state_of_cell(const StartCell& cell, const Mask<T>& lanes, const Point<
   }
   if (cell.stress.empty()) return;
   TermValues<T> of_stress;
-  fill(cell.stress_changes, x, terms.is_loaded, of_stress);
+  fill(cell.stress_changes, x, terms.acting, of_stress);
   for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
     const Block<T> change = sum(cell.stress_changes, i, of_stress);
     Vec6<T>& stress = at(work.start_stress, i);
@@ -122,15 +122,15 @@ void put_real_from_cell(const StartCell& cell, const Mask<T>& lanes, Coupled<T>&
   const Variables& variables = cell.variables;
   const auto& of_command = coupled.problem.of_command;
   Point<T> place = find_place(cell, work);
-  bool is_loaded = false;
+  Acting acting = Acting::nothing;
   for (int i = 0; i < 6 && variables.loads; ++i) {
     T& load = place[variables.first_load() + i];
     load = (i < 3 ? work.load.v[i] : work.load.w[i - 3]) * work.question.load;
-    is_loaded = is_loaded || any<T>(load != 0.0);
+    if (any<T>(load != 0.0)) acting = i < 3 ? Acting::force : Acting::moment;
   }
   Point<T> x = place;
   TermValues<T> terms;
-  fill(cell.changes, x, is_loaded, terms);
+  fill(cell.changes, x, acting, terms);
   bool is_commanded = false;
   const int components = variables.first_load();
   for (int j = 0; j < components; ++j) is_commanded = is_commanded || at(of_command, j);
@@ -142,7 +142,7 @@ void put_real_from_cell(const StartCell& cell, const Mask<T>& lanes, Coupled<T>&
         x[j] = place[j] - offset.value[j];
       else
         nominal_way[j] = select<T>(lanes, offset.value[j], nominal_way[j]);
-    if (is_commanded) fill(cell.changes, x, is_loaded, terms);
+    if (is_commanded) fill(cell.changes, x, acting, terms);
   }
   put_state_of_cell(cell, lanes, x, terms, work);
 }
@@ -161,7 +161,7 @@ void put_from_cells(const Batch& batch, int first, Coupled<T>& coupled) {
       Point<T> x = find_place(cell, coupled.nominal);
       for (int i = 0; i < 6; ++i) x[i] += nominal_way[i];
       TermValues<T> terms;
-      fill(cell.changes, x, false, terms);
+      fill(cell.changes, x, Acting::nothing, terms);
       put_state_of_cell<T>(cell, lanes, x, terms, coupled.nominal);
     });
 }

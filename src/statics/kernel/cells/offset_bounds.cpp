@@ -62,11 +62,13 @@ OffsetBounds offset_bounds(const StartCell& cell, double half_edge, double load,
     const Eigen::MatrixXd D = second_derivatives(cell, row, half_edge, load, length);
     auto& first = at(bounds.first, row / 3);
     auto& second = at(bounds.second, row / 3);
+    const std::vector<Term>& terms = cell.offset_changes.terms;
+    for (std::size_t t = 0; t < terms.size(); ++t)
+      if (const int i = terms[t].of[0]; terms[t].of[1] == no_variable)
+        first[static_cast<std::size_t>(group_of(i, variables))] +=
+            std::pow(cell.offset_changes.coefficient(0, t, row) * unit_of(i, variables, length), 2);
     for (int i = 0; i < n; ++i) {
       const auto v = static_cast<std::size_t>(group_of(i, variables));
-      first[v] += std::pow(cell.offset_changes.coefficient(0, static_cast<std::size_t>(i), row) *
-                               unit_of(i, variables, length),
-                           2);
       for (int j = 0; j < n; ++j)
         second[v][static_cast<std::size_t>(group_of(j, variables))] +=
             std::pow(D(i, j) * unit_of(i, variables, length) * unit_of(j, variables, length), 2);

@@ -20,7 +20,7 @@ struct Sample {
   Vector6 F = Vector6::Zero();
 };
 
-/// The centre, then a pair of samples on either side of it for each variable, then four in y and z.
+/// The centre, then a pair of samples on either side of it for each variable, then the corners.
 struct Samples {
   std::vector<Sample> all;
   std::vector<double> steps;  ///< by variable
@@ -30,6 +30,12 @@ Vector6 unit_loads(double length) {
   Vector6 F;
   F << Vector3::Constant(load_of_cells), Vector3::Constant(load_of_cells * length);
   return F;
+}
+
+constexpr int corners_of_cube = 8;
+
+Vector3 signs_of(int corner) {
+  return {corner & 1 ? 1.0 : -1.0, corner & 2 ? 1.0 : -1.0, corner & 4 ? 1.0 : -1.0};
 }
 
 Samples samples_about(const CellPlace& place, const Variables& variables, double length) {
@@ -44,24 +50,23 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
       samples.all.push_back(sample);
     }
   }
-  for (const double y : {place.step, -place.step})
-    for (const double z : {place.step, -place.step}) samples.all.push_back({place.centre + Vector3(0, y, z)});
+  for (int k = 0; k < corners_of_cube; ++k) samples.all.push_back({place.centre + place.step * signs_of(k)});
   return samples;
 }
 
-/// Corners of a cell, each with another load of one size: along one component, or in all of
-/// them. Then the same corners without a load.
+/// The corners of a cell, each with another load of one size: along one component, or in all of them. Then
+/// the same corners without a load.
 std::vector<Sample> corners_about(const CellPlace& place, double length) {
   std::vector<Sample> corners;
-  for (int k = 0; k < 8; ++k) {
-    const Vector3 signs(k & 1 ? 1 : -1, k & 2 ? 1 : -1, k & 4 ? 1 : -1);
+  for (int k = 0; k < corners_of_cube; ++k) {
+    const Vector3 signs = signs_of(k);
     Vector6 F = Vector6::Constant(std::sqrt(1.0 / 6));
     if (k < 6) F = Vector6::Unit(k);
     F.head<3>() = F.head<3>().cwiseProduct(signs);
     F.tail<3>() *= k % 2 == 0 ? length : -length;
     corners.push_back({place.centre + place.step * signs, Vector3::Zero(), load_of_cells * F});
   }
-  for (int k = 0; k < 8; ++k) corners.push_back({at(corners, k).p});
+  for (int k = 0; k < corners_of_cube; ++k) corners.push_back({at(corners, k).p});
   return corners;
 }
 
@@ -135,16 +140,31 @@ class CellSamples {
     return J;
   }
 
-  /// First-order terms of the stress, by element a block.
+  /// Stress by element a block: terms of first order, and products of a position and a load.
   Polynomials stress_changes() const {
     const Eigen::Index size = 6 * static_cast<Eigen::Index>(machine_.elements.size());
     const auto stress = [&](int sample) {
       return Eigen::Map<const Eigen::VectorXd>(solutions_.stress.data() + size * sample, size);
     };
-    Rows changes(size, variables_.count());
-    for (int k = 0; k < variables_.count(); ++k)
-      changes.col(k) = (stress(1 + 2 * k) - stress(2 + 2 * k)) / (2 * at(samples_.steps, k));
-    return in_blocks(changes, size, {all_terms_.begin(), all_terms_.begin() + variables_.count()});
+    const auto response = [&](int sample, int variable) {
+      return Eigen::Map<const Eigen::VectorXd>(
+          solutions_.stress_responses.data() + size * (variables_.count() * sample + variable), size);
+    };
+    Rows changes(size, static_cast<Eigen::Index>(all_terms_.size()));
+    std::vector<Term> terms;
+    for (const Term& term : all_terms_) {
+      const auto [i, j, k] = term.of;
+      const int above = 1 + 2 * i, below = 2 + 2 * i;
+      if (j == no_variable)
+        changes.col(term.number) = stress(above) - stress(below);
+      else if (k == no_variable && variables_.is_position(i) && variables_.is_load(j))
+        changes.col(term.number) = response(above, j) - response(below, j);
+      else
+        continue;
+      changes.col(term.number) /= 2 * at(samples_.steps, i);
+      terms.push_back(term);
+    }
+    return in_blocks(changes, size, std::move(terms));
   }
 
   /// The coefficients of all terms, by column, of the rows whose first derivatives at a sample are
@@ -169,9 +189,13 @@ class CellSamples {
         of_term = (at(J, 1 + 2 * i).col(k) + at(J, 2 + 2 * i).col(k) - 2 * J[0].col(k)) /
                   (std::pow(at(samples_.steps, i), 2) * (j == k ? 6 : 2));
       else {
-        const std::size_t corner = 1 + 2 * static_cast<std::size_t>(variables_.count());
-        of_term = (J[corner].col(0) - J[corner + 1].col(0) - J[corner + 2].col(0) + J[corner + 3].col(0)) /
-                  (4 * place_.step * place_.step);
+        const int first_corner = 1 + 2 * variables_.count();
+        of_term.setZero();
+        for (int corner = 0; corner < corners_of_cube; ++corner) {
+          const Vector3 signs = signs_of(corner);
+          of_term += at(J, first_corner + corner).col(k) * (signs[i] * signs[j]);
+        }
+        of_term /= corners_of_cube * std::pow(place_.step, 2);
       }
     }
     return coefficients;
@@ -193,26 +217,34 @@ class CellSamples {
     std::vector<Term> terms;
     for (const Term& term : all_terms_) {
       const auto [i, j, k] = term.of;
-      if (k != no_variable && !variables_.is_position(k)) continue;
+      if (k != no_variable && variables_.is_turn(k)) continue;
       if (j != no_variable && variables_.is_turn(i) && variables_.is_load(j)) continue;
       const double moves =
           coefficients.col(term.number).cwiseProduct(units).cwiseAbs().maxCoeff() * extents.value_of(term);
       if (moves > negligible_term) terms.push_back(term);
     }
-    std::stable_partition(terms.begin(), terms.end(), [&](const Term& term) { return !has_load(term); });
     return in_blocks(coefficients, machine_.joints, std::move(terms));
   }
 
  private:
-  bool has_load(const Term& term) const {
-    return std::ranges::any_of(term.of, [&](int i) { return i != no_variable && variables_.is_load(i); });
+  /// The least load under which a term is not zero.
+  Acting acting(const Term& term) const {
+    Acting most = Acting::nothing;
+    for (const int i : term.of)
+      if (i != no_variable && variables_.is_load(i))
+        most = std::max(most, i < variables_.first_load() + 3 ? Acting::force : Acting::moment);
+    return most;
   }
 
   /// Coefficients in blocks: the first rows are filled up with zeros to whole blocks.
   Polynomials in_blocks(const Rows& coefficients, Eigen::Index first_rows, std::vector<Term> terms) const {
-    const auto loaded = std::ranges::find_if(terms, [&](const Term& term) { return has_load(term); });
-    const auto unloaded = static_cast<std::size_t>(loaded - terms.begin());
-    Polynomials polynomials{std::move(terms), {}, unloaded};
+    std::ranges::stable_sort(terms, {}, [&](const Term& term) { return acting(term); });
+    const auto until = [&](Acting most) {
+      return static_cast<std::size_t>(
+          std::ranges::find_if(terms, [&](const Term& term) { return acting(term) > most; }) - terms.begin());
+    };
+    const std::size_t unloaded = until(Acting::nothing), without_moment = until(Acting::force);
+    Polynomials polynomials{std::move(terms), {}, unloaded, without_moment};
     for (Eigen::Index first = 0; first < coefficients.rows();) {
       const Eigen::Index end = first < first_rows ? std::min(first + block, first_rows) : first + block;
       for (const Term& term : polynomials.terms)
@@ -307,7 +339,7 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
       cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
   }
   // Corners are where starts miss most, but for larger loads.
-  const auto unloaded = solved->contraction.begin() + static_cast<std::ptrdiff_t>(corners.size() / 2);
+  const auto unloaded = solved->contraction.begin() + corners_of_cube;
   cell.contraction = *std::max_element(solved->contraction.begin(), unloaded);
   cell.unloaded_contraction = *std::max_element(unloaded, solved->contraction.end());
 }
