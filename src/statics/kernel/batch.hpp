@@ -37,9 +37,9 @@ struct StartCell {
   std::vector<double> stress;  ///< by element, six numbers: at the centre
   Polynomials stress_changes;  ///< by element a block: first-order terms, and of a position and a load
   std::vector<double> pivots;  ///< at the centre without a load, actuators held
-  /// The second step over the first one, with the tangent of this start: under a load of `load_of_cells` in
-  /// its worst direction, and without a load.
-  double contraction = 1, unloaded_contraction = 1;
+  /// The second step over the first one, with the tangent of this start: by what acts, under loads of
+  /// `load_of_cells`, at most.
+  std::array<double, 3> contraction{1, 1, 1};
   std::array<double, 6> offset{};  ///< from the tip to the command: position (m), rotation vector (rad)
   Polynomials offset_changes;      ///< all terms
   OffsetBounds bounds{};

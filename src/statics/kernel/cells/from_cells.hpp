@@ -171,11 +171,11 @@ template <class T>
 T contraction_of_cells(const Batch& batch, int first, const Work<T>& work) {
   const Vec3<T> force = work.load.v * work.question.load,
                 moment = work.load.w * (work.question.load / work.machine.length);
-  const T size_squared = dot(force, force) + dot(moment, moment);
+  const T moment_squared = dot(moment, moment), size_squared = dot(force, force) + moment_squared;
   return gather<T>([&](int l) {
-    const StartCell& cell = *at(batch.cells, waypoint_of(batch, first, l));
-    const double share = std::sqrt(lane(size_squared, l)) / load_of_cells;
-    return cell.unloaded_contraction + share * (cell.contraction - cell.unloaded_contraction);
+    const auto& [unloaded, by_force, by_moment] = at(batch.cells, waypoint_of(batch, first, l))->contraction;
+    const double loaded = lane(moment_squared, l) > 0 ? by_moment : by_force;
+    return unloaded + std::sqrt(lane(size_squared, l)) / load_of_cells * (loaded - unloaded);
   });
 }
 

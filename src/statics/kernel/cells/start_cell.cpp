@@ -54,14 +54,19 @@ Samples samples_about(const CellPlace& place, const Variables& variables, double
   return samples;
 }
 
-/// The corners of a cell, each with another load of one size: along one component, or in all of them. Then
-/// the same corners without a load.
+Acting acting_in(const Vector6& F) {
+  return !F.tail<3>().isZero(0) ? Acting::moment : !F.head<3>().isZero(0) ? Acting::force : Acting::nothing;
+}
+
+/// The corners of a cell, each with another load of one size: along one component, in all components of the
+/// force, or in all of them. Then the same corners without a load.
 std::vector<Sample> corners_about(const CellPlace& place, double length) {
   std::vector<Sample> corners;
   for (int k = 0; k < corners_of_cube; ++k) {
     const Vector3 signs = signs_of(k);
     Vector6 F = Vector6::Constant(std::sqrt(1.0 / 6));
     if (k < 6) F = Vector6::Unit(k);
+    if (k == 6) F << Vector3::Constant(std::sqrt(1.0 / 3)), Vector3::Zero();
     F.head<3>() = F.head<3>().cwiseProduct(signs);
     F.tail<3>() *= k % 2 == 0 ? length : -length;
     corners.push_back({place.centre + place.step * signs, Vector3::Zero(), load_of_cells * F});
@@ -339,9 +344,11 @@ void measure_at_corners(const Problem& target, const CellPlace& place, const Sta
       cell.bounds.remainder[1] = std::max(cell.bounds.remainder[1], missed.tail<3>().norm());
   }
   // Corners are where starts miss most, but for larger loads.
-  const auto unloaded = solved->contraction.begin() + corners_of_cube;
-  cell.contraction = *std::max_element(solved->contraction.begin(), unloaded);
-  cell.unloaded_contraction = *std::max_element(unloaded, solved->contraction.end());
+  cell.contraction.fill(0);
+  for (std::size_t k = 0; k < corners.size(); ++k) {
+    double& most = at(cell.contraction, static_cast<int>(acting_in(corners[k].F)));
+    most = std::max(most, solved->contraction[k]);
+  }
 }
 
 }  // namespace
