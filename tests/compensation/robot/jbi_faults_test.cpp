@@ -65,6 +65,20 @@ TEST_CASE("the point inside of a circle is at the height of the corrected circle
   }
 }
 
+TEST_CASE("targets in pulses must not be exchanged") {
+  const std::string one = "=1000,2000,3000,0,-4000,0\n", other = "=1000,9000,3000,0,-4000,0\n";
+  std::string source = replaced(jbi_text(), "NPOS 8,8", "NPOS 10,8");
+  source = replaced(source, "BC00000=", "C00008" + one + "C00009" + other + "BC00000=");
+  source = replaced(source, "MOVJ P00100", "MOVJ C00008 VJ=25.00\nMOVJ C00009 VJ=25.00\nMOVJ P00100");
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  REQUIRE(failure_of_job(shop, text) == "");
+  std::string changed = replaced(text, one, "=?\n");
+  changed = replaced(changed, other, one);
+  changed = replaced(changed, "=?\n", other);
+  CHECK(failure_of_job(shop, changed) != "");
+}
+
 TEST_CASE("configurations of two positions must not be exchanged") {
   const std::string one = "///RCONF 1,0,0,0,0,0,0,0\n", other = "///RCONF 0,0,0,0,0,0,0,0\n";
   std::string source = jbi_text();
