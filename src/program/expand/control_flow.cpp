@@ -50,6 +50,7 @@ class Joining {
       if (line.kind == FlowKind::else_if || line.kind == FlowKind::otherwise) branch(at);
       if (line.kind == FlowKind::leave_loop || line.kind == FlowKind::next_pass)
         line.partner = loop_around(line);
+      refuse_kept_state(line);
     }
     if (!open_.empty())
       throw UnknownFlow{lines_[open_.back()].begin.line,
@@ -59,6 +60,22 @@ class Joining {
  private:
   [[noreturn]] static void refuse_end(const ControlLine& line) {
     throw UnknownFlow{line.begin.line, fmt::format("{} has no beginning", line.keyword)};
+  }
+
+  /// LinuxCNC does not forget the passes of a repeat loop that return leaves, nor the continue of a do loop.
+  void refuse_kept_state(const ControlLine& line) const {
+    const bool is_in_repeat = std::any_of(open_.begin(), open_.end(), [&](std::size_t at) {
+      return lines_[at].kind == FlowKind::begin_repeat;
+    });
+    if (line.kind == FlowKind::leave_body && is_in_repeat)
+      throw UnknownFlow{
+          line.begin.line,
+          fmt::format("{} is in a repeat loop, and LinuxCNC keeps its other passes for the next call",
+                      line.keyword)};
+    if (line.kind == FlowKind::next_pass && lines_[line.partner].kind == FlowKind::begin_loop)
+      throw UnknownFlow{line.begin.line,
+                        fmt::format("{} is in a do loop, and LinuxCNC repeats the next while or repeat loop",
+                                    line.keyword)};
   }
 
   bool closes_do(const ControlLine& line) const {

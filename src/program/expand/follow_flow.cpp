@@ -12,8 +12,8 @@ namespace {
 
 class Follower {
  public:
-  Follower(const ControlFlow& flow, const Dialect& dialect, PassesLeft& passes, Variables& variables)
-      : flow_(flow), dialect_(dialect), passes_(passes), variables_(variables) {}
+  Follower(const ControlFlow& flow, const Dialect& dialect, LoopState& loops, Variables& variables)
+      : flow_(flow), dialect_(dialect), loops_(loops), variables_(variables) {}
 
   FlowStep step(const ControlLine& line) {
     switch (line.kind) {
@@ -25,11 +25,11 @@ class Follower {
       case FlowKind::otherwise:
         return {partner(line).behind};
       case FlowKind::begin_while:
-        return {is_true(line) ? line.behind : partner(line).behind};
+        return {is_true(line) ? line.behind : behind_while(line)};
       case FlowKind::end_loop:
         return {repeat_or_leave(partner(line))};
       case FlowKind::loop_while:
-        return {is_true(line) ? partner(line).behind : line.behind};
+        return {loop_while(line)};
       case FlowKind::loop_until:
         return {is_true(line) ? line.behind : partner(line).behind};
       case FlowKind::begin_repeat:
@@ -41,9 +41,10 @@ class Follower {
       case FlowKind::end_for:
         return count_on(line);
       case FlowKind::leave_loop:
-        return {partner(partner(line)).behind};
+        return {partner(line).kind == FlowKind::begin_while ? behind_while(partner(line))
+                                                            : behind_do(partner(partner(line)))};
       case FlowKind::next_pass:
-        return {partner(partner(line)).begin};
+        return {next_pass(line)};
       case FlowKind::leave_body:
         return leave_body(line);
       case FlowKind::assign_if:
@@ -91,14 +92,61 @@ class Follower {
     const auto count = value_of(line.condition).value;
     if (!count || *count != std::round(*count))
       refuse(line, fmt::format("the count {} is not an integer known from the text", line.condition));
-    if (*count < 1) return partner(line).behind;
-    passes_[line.partner] = static_cast<long>(*count);
+    if (loops_.passes_left.contains(&line))
+      refuse(line, "the loop calls itself, and LinuxCNC counts the passes of both together");
+    if (*count < 1) return behind_loop(line);
+    loops_.passes_left[&line] = static_cast<long>(*count);
     return line.behind;
   }
 
-  LinePlace repeat(const ControlLine& line) {
-    long& left = passes_[partner(line).partner];
-    return --left > 0 ? partner(line).behind : line.behind;
+  LinePlace repeat(const ControlLine& end) {
+    const auto left = loops_.passes_left.find(&partner(end));
+    if (--left->second > 0) return partner(end).behind;
+    loops_.passes_left.erase(left);
+    return behind_loop(partner(end));
+  }
+
+  void refuse_unknown_loops(const ControlLine& line) const {
+    if (loops_.is_unknown)
+      refuse(line,
+             "a call or a loop before its end is not replaced, and a break or continue there can change its "
+             "passes in LinuxCNC");
+  }
+
+  LinePlace behind_loop(const ControlLine& begin) const {
+    refuse_unknown_loops(begin);
+    return partner(begin).behind;
+  }
+
+  /// LinuxCNC passes the lines from `line` on to the end of its loop.
+  void pass_breaks(const ControlLine& line, const ControlLine& begin) {
+    loops_.keeps_break =
+        loops_.keeps_break || std::any_of(&line, &partner(begin), [&](const ControlLine& passed) {
+          return passed.kind == FlowKind::leave_loop && &partner(passed) == &begin;
+        });
+  }
+
+  LinePlace behind_while(const ControlLine& begin) {
+    pass_breaks(begin, begin);
+    return behind_loop(begin);
+  }
+
+  LinePlace next_pass(const ControlLine& line) {
+    pass_breaks(line, partner(line));
+    return partner(line).begin;
+  }
+
+  LinePlace loop_while(const ControlLine& end) {
+    if (!is_true(end)) return behind_do(end);
+    refuse_unknown_loops(partner(end));
+    if (loops_.keeps_break)
+      refuse(end, "the break of a while loop before ends this do loop after its first pass in LinuxCNC");
+    return partner(end).behind;
+  }
+
+  LinePlace behind_do(const ControlLine& end) {
+    loops_.keeps_break = false;
+    return behind_loop(partner(end));
   }
 
   FlowStep leave_body(const ControlLine& line) const {
@@ -173,15 +221,15 @@ class Follower {
 
   const ControlFlow& flow_;
   const Dialect& dialect_;
-  PassesLeft& passes_;
+  LoopState& loops_;
   Variables& variables_;
 };
 
 }  // namespace
 
-FlowStep follow(const ControlFlow& flow, const ControlLine& line, const Dialect& dialect, PassesLeft& passes,
+FlowStep follow(const ControlFlow& flow, const ControlLine& line, const Dialect& dialect, LoopState& loops,
                 Variables& variables) {
-  return Follower(flow, dialect, passes, variables).step(line);
+  return Follower(flow, dialect, loops, variables).step(line);
 }
 
 }  // namespace counterflex

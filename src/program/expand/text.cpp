@@ -31,7 +31,6 @@ struct Frame {
   const Definition* definition = nullptr;  ///< of a body
   bool writes_values = false;              ///< the body of an O-word, which has its own variables
   int called_from = 0;
-  PassesLeft passes{};
   bool left = false;  ///< by RETURN
 };
 
@@ -117,6 +116,7 @@ class Expander {
     }
     note_unknown(block);
     follow_structures(text_, dialect_, block, structures_);
+    if (!structures_.open.empty()) leave_to_linuxcnc(block);
     copy_block(block, frame, {});
     frame.variables.clear();
   }
@@ -143,7 +143,7 @@ class Expander {
       return copy_block(block, frame, line == nullptr ? Span{} : line->label);
     if (expansion_.executed++ == 0) expansion_.first_executed = block.line;
     jumped_from_ = block.line;
-    const FlowStep step = follow(frame.flow, *line, dialect_, frame.passes, frame.variables);
+    const FlowStep step = follow(frame.flow, *line, dialect_, loops_, frame.variables);
     if (!step.written.empty()) lines_.append(step.written + lines_.line_end, block.line, block.line);
     if (!empty(step.rest)) assign_rest(block, step.rest, frame);
     frame.left = step.leaves;
@@ -202,7 +202,16 @@ class Expander {
     lines_.append(whole_line(text_, block), block.line, origin(block, frame));
     expansion_.unexpanded_calls.push_back({lines_.count, why});
     frame.variables.clear();
+    leave_to_linuxcnc(block);
     return {};
+  }
+
+  /// A call or a loop stays in the text.
+  void leave_to_linuxcnc(const Block& block) {
+    if (!dialect_.o_words) return;
+    if (loops_.keeps_break)
+      throw UnknownFlow{block.line, "a call is not replaced, and LinuxCNC keeps a break of a loop before it"};
+    loops_.is_unknown = true;
   }
 
   /// A block without a call; in the body of an O-word, with the values of its expressions.
@@ -262,14 +271,18 @@ class Expander {
 
     const LinesMark mark = mark_of(lines_);
     const Counts before_call = counts();
+    const LoopState loops_before = loops_;
     // The other words of the block are executed first.
     if (const std::string rest = line_without(text_, dialect_, block, call.dropped); !rest.empty())
       lines_.append(rest, block.line, origin(block, caller));
-    const std::string failed = copy_bodies(body, repeats, call, block);
+    std::string failed = copy_bodies(body, repeats, call, block);
+    if (!follows_ && loops_.keeps_break)
+      failed = "LinuxCNC keeps a break of its while loop for a loop of the program";
     if (by_word) take_globals(own, caller.variables);
     if (failed.empty()) return {};
     truncate_to(mark, lines_);
     restore(before_call);
+    loops_ = loops_before;
     return failed;
   }
 
@@ -362,6 +375,7 @@ class Expander {
   ProgramText program_;
   ExpandedLines lines_;
   Expansion expansion_{};
+  LoopState loops_{};
   bool follows_ = false;                  ///< the program itself is executed
   std::optional<UnknownFlow> unknown_{};  ///< why it is not executed
   Structures structures_{};               ///< of a program that is not executed

@@ -60,10 +60,32 @@ TEST_CASE("linuxcnc: break leaves a loop and continue begins the next pass") {
       "#1=0\no1 while [1]\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 continue\no2 endif\no3 if [#1 GT 3]\no1 break\n"
       "o3 endif\nX#1\no1 endwhile\nX9\nM2\n",
       "#1=0\n#1=[#1+1]\nX#1\n#1=[#1+1]\n#1=[#1+1]\nX#1\n#1=[#1+1]\nX9\nM2\n");
-  check_executed("linuxcnc", "#1=0\no1 do\n#1=[#1+1]\no1 continue\nX1\no1 while [#1 LT 2]\nM2\n",
-                 "#1=0\n#1=[#1+1]\n#1=[#1+1]\nM2\n");
+  check_executed("linuxcnc",
+                 "#1=0\no1 do\n#1=[#1+1]\no2 if [#1 EQ 2]\no1 break\no2 endif\nX1\no1 while [1]\nM2\n",
+                 "#1=0\n#1=[#1+1]\nX1\n#1=[#1+1]\nM2\n");
   check_executed("linuxcnc", "o1 repeat [2]\no2 while [1]\nX1\no2 break\no2 endwhile\nX2\no1 endrepeat\nM2\n",
                  "X1\nX2\nX1\nX2\nM2\n");
+}
+
+TEST_CASE("linuxcnc: loops whose passes depend on a loop that was left before are not executed") {
+  check_left("linuxcnc", "#1=0\no1 do\n#1=[#1+1]\no1 continue\nX1\no1 while [#1 LT 2]\nM2\n", 4,
+             "continue is in a do loop, and LinuxCNC repeats the next while or repeat loop");
+  const std::string do_loop = "#1=0\no2 do\n#1=[#1+1]\nX#1\no2 while [#1 LT 2]\nM2\n";
+  const std::string do_lines = "#1=0\n#1=[#1+1]\nX#1\n#1=[#1+1]\nX#1\nM2\n";
+  const std::string_view keeps_break =
+      "the break of a while loop before ends this do loop after its first pass in LinuxCNC";
+  check_left("linuxcnc", "o1 while [1]\nX5\no1 break\no1 endwhile\n" + do_loop, 9, keeps_break);
+  check_left("linuxcnc", "o1 while [0]\no1 break\no1 endwhile\n" + do_loop, 8, keeps_break);
+  check_left(
+      "linuxcnc",
+      "#2=0\no1 while [#2 LT 1]\n#2=1\no4 if [1]\no1 continue\no4 endif\no1 break\no1 endwhile\n" + do_loop,
+      13, keeps_break);
+  check_executed("linuxcnc", "o1 while [0]\nX1\no1 endwhile\n" + do_loop, do_lines);
+  check_executed("linuxcnc", "o1 while [0]\no1 break\no1 endwhile\no3 do\nX7\no3 while [0]\n" + do_loop,
+                 "X7\n" + do_lines);
+  check_left("linuxcnc", "o9 call\no1 repeat [2]\nX2\no1 endrepeat\nM2\n", 2,
+             "a call or a loop before its end is not replaced, and a break or continue there can change its "
+             "passes in LinuxCNC");
 }
 
 TEST_CASE("linuxcnc: M2 in a condition ends the program, and the text behind it stays") {

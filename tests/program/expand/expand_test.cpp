@@ -190,6 +190,12 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
             "more than 150000 lines would be executed"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no1 if [#5061 GT 0]\nX1\no1 endif\no<a> endsub\n",
             "the condition [#5061 GT 0] is not known from the text"},
+           {"linuxcnc", "o<a> call [1]",
+            "o<a> sub\no1 repeat [2]\nX1\no2 if [#1]\no<a> return\no2 endif\no1 endrepeat\no<a> endsub\n",
+            "return is in a repeat loop, and LinuxCNC keeps its other passes for the next call"},
+           {"linuxcnc", "o<a> call [1]",
+            "o<a> sub\no1 repeat [2]\nX1\no2 if [#1]\no<a> call [0]\no2 endif\no1 endrepeat\no<a> endsub\n",
+            "the loop calls itself, and LinuxCNC counts the passes of both together"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> endsub [3]\n", "its endsub returns a value"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nM73\nX1\no<a> endsub\n",
             "M73 in its body restores modal states"},
@@ -224,6 +230,16 @@ TEST_CASE("a call in a condition or a loop is not expanded") {
     CHECK(expanded(text + end).text == text + end);
     CHECK(expanded(text + "o9 call\n" + end).text == text + "X1\n" + end);
   }
+}
+
+TEST_CASE("linuxcnc: a body whose break would end a later loop is not expanded beside loops that stay") {
+  const std::string loop = "o2 do\nX3\no2 while [#5061]\nM2\n";
+  const std::string sub = "o9 sub\no1 while [1]\nX1\no1 break\no1 endwhile\no9 endsub\n";
+  const Program program = expanded(go + "o9 call\n" + loop + sub);
+  CHECK(program.text == go + "o9 call\n" + loop + sub);
+  CHECK(program.expansion.unexpanded_calls.front().why ==
+        "LinuxCNC keeps a break of its while loop for a loop of the program");
+  CHECK(expanded(go + "o9 call\nM2\n" + sub).text == go + "X1\nM2\n" + sub);
 }
 
 TEST_CASE("nothing is copied if the program searches block numbers") {
