@@ -14,6 +14,7 @@ namespace counterflex::fuzz {
 namespace {
 
 constexpr std::size_t longest = 512;  // bytes: each move is solved
+constexpr std::size_t longest_expansion = 250'000;
 const Vector3 shift_mm(-0.5, 0.25, -0.125);
 
 Model gantry(const std::string& errors) {
@@ -99,6 +100,7 @@ extern "C" int LLVMFuzzerTestOneInput(const std::uint8_t* data, std::size_t size
   fuzz::accept_or_refuse([&] {
     const ReadOptions read = fuzz::options_of(data[0]);
     const Program program = read_program(std::string(fuzz::text_of(data + 1, size - 1)), "part.nc", read);
+    if (program.text.size() > fuzz::longest_expansion) return;
     for (const bool is_displaced : {true, false}) fuzz::compensate_and_verify(program, read, is_displaced);
   });
   return 0;

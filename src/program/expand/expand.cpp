@@ -44,6 +44,16 @@ Expansion expand_subprograms(std::string& text, const std::string& file, const D
   return std::move(expanded.expansion);
 }
 
+std::string limit_exceeded(const ExpandedSize& expanded, const ExpandedSize& original) {
+  if (expanded.lines > original.lines + most_added_lines)
+    return fmt::format("the expansion adds more than {} lines", most_added_lines);
+  if (expanded.bytes > original.bytes + most_added_bytes)
+    return fmt::format("the expansion adds more than {} bytes", most_added_bytes);
+  if (expanded.calls > original.calls + most_expanded_calls)
+    return fmt::format("the expansion has more than {} calls", most_expanded_calls);
+  return {};
+}
+
 int line_of_file(const Expansion& expansion, int text_line) {
   const LineRun* run = run_of(expansion, text_line);
   return run == nullptr ? text_line : run->line + (text_line - run->text_line);

@@ -1,6 +1,5 @@
 #pragma once
 /// Replaces calls of subprograms by their bodies, before a program is read.
-#include <algorithm>
 #include <string>
 
 #include "counterflex/program/program.hpp"
@@ -16,10 +15,10 @@ namespace counterflex {
 /// comments. Definitions stay. Calls that cannot be replaced stay, too, with the reason.
 /// Loops, conditions and jumps of the program and of these bodies are replaced by the lines that they
 /// execute: FOR, WHILE, LOOP, REPEAT, IF and GOTO of a Sinumerik, the O-words of LinuxCNC, WHILE, DO, IF and
-/// GOTO of shop controls. If a condition of the program is not known from the text, or if more than 150 000
-/// lines would run again, all of them stay, with the reason. Calls of a Sinumerik are not replaced.
+/// GOTO of shop controls. If a condition of the program is not known from the text, or if the lines exceed
+/// the limits below, all of them stay, with the reason. Calls of a Sinumerik are not replaced.
 /// Throws `InputError` (ErrorKind::program_text) for text that is not G-code, for a subprogram that always
-/// calls itself, and if calls expand to more than `largest_expansion` bytes.
+/// calls itself, and if calls exceed the limits.
 Expansion expand_subprograms(std::string& text, const std::string& file, const Dialect& dialect);
 
 /// Whether calls of the dialect can be replaced.
@@ -28,12 +27,18 @@ bool may_expand(const Dialect& dialect);
 /// Whether loops, conditions and jumps of the dialect can be executed.
 bool may_execute(const Dialect& dialect);
 
-/// Limit of the expanded size of a program of `bytes`. The result is one window, whose moves need a thousand
-/// times as much memory.
-constexpr std::size_t largest_expansion(std::size_t bytes) {
-  return std::max(std::size_t{250'000}, 4 * bytes);
-}
+/// Limits of what an expansion adds to a program. The result is one window, whose moves need 1 to 8 kB each.
+constexpr std::size_t most_added_lines = 500'000, most_added_bytes = 64'000'000;
 constexpr std::size_t most_expanded_calls = 1'000'000;
+
+/// An expansion so far: its lines with those that have run, its text and its calls.
+struct ExpandedSize {
+  std::size_t lines, bytes, calls;
+};
+
+/// Which limit an expansion of `original` exceeds: "the expansion adds more than 500000 lines"; empty if it
+/// exceeds none.
+std::string limit_exceeded(const ExpandedSize& expanded, const ExpandedSize& original);
 
 /// Sets the line of `block` to the line of the file from which the line of the text comes.
 void place_in_file(const Expansion& expansion, Block& block);

@@ -20,8 +20,6 @@ namespace counterflex {
 namespace {
 
 constexpr std::size_t deepest_calls = 100;
-constexpr std::size_t most_lines = 150'000;  // limit of lines that run again
-constexpr std::size_t most_bytes_of_sinumerik = 16'000'000;
 
 /// The program itself, or a body that is being executed.
 struct Frame {
@@ -154,13 +152,15 @@ class Expander {
   }
 
   void count_line(const Frame& frame) {
+    ++run_lines_;
     if (!frame.flows) return;
-    const std::size_t most_bytes =
-        dialect_.sinumerik_words ? most_bytes_of_sinumerik : largest_expansion(text_.size());
-    if (++run_lines_ > most_lines + was_executed_.size())
-      throw UnknownFlow{jumped_from_, fmt::format("more than {} lines would be executed", most_lines)};
-    if (lines_.text.size() > most_bytes)
-      throw UnknownFlow{jumped_from_, fmt::format("the executed lines are longer than {} bytes", most_bytes)};
+    if (const std::string exceeded = exceeded_limit(); !exceeded.empty())
+      throw UnknownFlow{jumped_from_, exceeded};
+  }
+
+  std::string exceeded_limit() const {
+    return limit_exceeded({run_lines_, lines_.text.size(), expansion_.calls},
+                          {static_cast<std::size_t>(expansion_.file_lines), text_.size(), 0});
   }
 
   /// "#1=5" of "IF [...] THEN #1=5".
@@ -356,15 +356,12 @@ class Expander {
 
   void count_call(const SubprogramCall& call, const Block& block) {
     if (expansion_.calls++ == 0) expansion_.first_call = block.line;
-    const std::size_t most = largest_expansion(text_.size());
-    if (lines_.text.size() <= most && expansion_.calls <= most_expanded_calls) return;
-    if (expansion_.executed > 0)
-      throw UnknownFlow{block.line, fmt::format("the executed lines are longer than {} bytes", most)};
+    const std::string exceeded = exceeded_limit();
+    if (exceeded.empty()) return;
+    if (expansion_.executed > 0) throw UnknownFlow{block.line, exceeded};
     refuse(file_, block, call.span.begin,
-           fmt::format(
-               "{}: the expanded calls are longer than {} bytes, or more than {} calls; reduce the repeats, "
-               "or leave out --expand-subprograms",
-               part(text_, call.span), most, most_expanded_calls));
+           fmt::format("{}: {}; reduce the repeats, or leave out --expand-subprograms",
+                       part(text_, call.span), exceeded));
   }
 
   std::string_view text_;

@@ -60,13 +60,13 @@ class KlartextExpander {
     const bool calls = std::any_of(blocks_.begin(), end,
                                    [](auto& b) { return b.role == Role::call || b.role == Role::repeat; });
     if (!calls) return {};
+    expansion_.file_lines = blocks_.empty() ? 0 : blocks_.back().line;
     if (why_not_.empty()) put(0, main, 0);
     if (!why_not_.empty()) return left_alone();
     for (std::size_t i = main; i < blocks_.size(); ++i) append(blocks_[i], 0);
     WrittenNumbers numbers{.renumbers = numbered_};
     text = renumbered_klartext(lines_.text, numbers);
     expansion_.lines = std::move(lines_.runs);
-    expansion_.file_lines = blocks_.empty() ? 0 : blocks_.back().line;
     return std::move(expansion_);
   }
 
@@ -149,14 +149,13 @@ class KlartextExpander {
 
   void count_call(const FlowBlock& call) {
     if (expansion_.calls++ == 0) expansion_.first_call = call.line;
-    const std::size_t most = largest_expansion(text_.size());
-    if (lines_.text.size() > most || expansion_.calls > most_expanded_calls)
-      throw InputError(
-          ErrorKind::program_text, {file_, call.line, 1},
-          fmt::format(
-              "CALL LBL {}: the expanded calls are longer than {} bytes, or more than {} calls; reduce "
-              "the repeats, or leave out --expand-subprograms",
-              call.name, most, most_expanded_calls));
+    const std::string exceeded =
+        limit_exceeded({static_cast<std::size_t>(lines_.count), lines_.text.size(), expansion_.calls},
+                       {static_cast<std::size_t>(expansion_.file_lines), text_.size(), 0});
+    if (!exceeded.empty())
+      throw InputError(ErrorKind::program_text, {file_, call.line, 1},
+                       fmt::format("CALL LBL {}: {}; reduce the repeats, or leave out --expand-subprograms",
+                                   call.name, exceeded));
   }
 
   void append(const FlowBlock& block, int called_from) {

@@ -169,8 +169,8 @@ TEST_CASE("a flow that is not known from the text leaves the program unchanged")
              "the condition [#1 GT 0] is not known from the text");
   check_left("linuxcnc", "#1=0\no9 call\no1 if [#1 GT 0]\nX2\no1 endif\nM2\n", 3,
              "the condition [#1 GT 0] is not known from the text");
-  check_left("linuxcnc", "o1 while [1]\nX2\no1 endwhile\nM2\n", 1,
-             "more than 150000 lines would be executed");
+  check_left("linuxcnc", "o1 while [1]\nX2\no1 endwhile\nM2\n", 3,
+             "the expansion adds more than 500000 lines");
   check_left("linuxcnc", "o1 repeat [1.5]\nX2\no1 endrepeat\nM2\n", 1,
              "the count [1.5] is not an integer known from the text");
   check_left("linuxcnc", "o1 if [1]\nX2\nM2\n", 1, "if has no end");
@@ -188,7 +188,7 @@ TEST_CASE("a flow that is not known from the text leaves the program unchanged")
              "the condition [#1 EQ 1] is not known from the text");
   check_left("fanuc", "O1\n#1=1\nIF [#1 EQ 1] THEN X5.\nM30\n", 3,
              "THEN needs exactly one assignment behind it");
-  check_left("fanuc", "O1\nN1 X1.\nGOTO 1\nM30\n", 3, "the executed lines are longer than 250000 bytes");
+  check_left("fanuc", "O1\nN1 X1.\nGOTO 1\nM30\n", 3, "the expansion adds more than 500000 lines");
 }
 
 TEST_CASE("fanuc: jumps behind another program number are not counted as executed") {

@@ -187,7 +187,7 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
            {"linuxcnc", "o<a> call [1]", "o<a> sub\nX1\no<a> return [3]\nX2\no<a> endsub\n",
             "its return has a value"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no1 while [1]\nX1\no1 endwhile\no<a> endsub\n",
-            "more than 150000 lines would be executed"},
+            "the expansion adds more than 500000 lines"},
            {"linuxcnc", "o<a> call [1]", "o<a> sub\no1 if [#5061 GT 0]\nX1\no1 endif\no<a> endsub\n",
             "the condition [#5061 GT 0] is not known from the text"},
            {"linuxcnc", "o<a> call [1]",
@@ -270,11 +270,18 @@ TEST_CASE("a subprogram that always calls itself is refused, and repeats are lim
   const std::string nested = fanuc_go + "M98 P2 L9999\nM30\nO2\nM98 P3 L9000\nM99\nO3\nX1.\nM99\n";
   CHECK(diagnostic_of([&] {
           expanded(nested, "fanuc");
-        }).find("p.nc:7:1: error: M98: the expanded calls are longer than") == 0);
+        }).find("p.nc:7:1: error: M98: the expansion adds more than 500000 lines") == 0);
   const std::string body(200'000, ' ');
   CHECK(diagnostic_of([&] {
           expanded(fanuc_go + "M98 P2 L9999\nM30\nO2\n(" + body + ")\nM99\n", "fanuc");
-        }).find("p.nc:4:1: error: M98: the expanded calls are longer than") == 0);
+        }).find("p.nc:4:1: error: M98: the expansion adds more than 64000000 bytes") == 0);
+}
+
+TEST_CASE("a pattern of many pockets is expanded") {
+  std::string pocket;
+  for (int i = 0; i < 100; ++i) pocket += fmt::format("G1 X{}. Y{}. Z-{}. F100\n", i % 7, i % 5, i % 3);
+  const Program program = expanded(fanuc_go + "M98 P2 L200\nM30\nO2\n" + pocket + "M99\n", "fanuc");
+  CHECK(program.moves.size() == 20'001);
 }
 
 TEST_CASE("blocks in a definition do not run when all calls are expanded, but they stay in the text") {
