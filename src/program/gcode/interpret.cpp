@@ -268,7 +268,8 @@ void end_program(Reading& r) {
 
 void read_with_own_modes(const Block& block, Reading& r) {
   if (!block.has_own_mode) return read_words(block, r);
-  read_words(with_own_modes(block, r), r);
+  apply_own_modes(block, r);
+  read_words(block, r);
   r.block_relative.reset();
   r.relative_axes = 0;
 }

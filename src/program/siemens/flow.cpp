@@ -81,7 +81,7 @@ void read_siemens_keyword(std::string_view rest, ControlLine& line) {
     if (name == "IF") line.condition = trimmed_text(std::string_view(statement).substr(2, jump - 2));
   } else if (name == "REPEAT" && !after.empty()) {
     line.kind = FlowKind::not_followed;
-    line.keyword = "REPEATB";
+    line.keyword = "REPEAT of labels";
   } else {
     const auto known = std::find_if(siemens_keywords.begin(), siemens_keywords.end(),
                                     [&](const SiemensKeyword& one) { return one.keyword == name; });

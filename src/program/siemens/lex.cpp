@@ -187,8 +187,6 @@ void lex_letter(Scanner& s) {
   if (letter == 'P') word.value -= 1;
   // An M with an expression does not affect moves. A tool with a name has no number.
   if (!word.literal && (letter == 'M' || letter == 'H' || letter == 'D')) s.block.words.pop_back();
-  // An arc whose centre is an expression is not followed.
-  if (letter >= 'I' && letter <= 'K' && !word.literal) s.block.statement = Statement::arc_not_read;
 }
 
 /// "RND=4", "CHR=2", "CHF=3": the corner with the next move. False for other names.

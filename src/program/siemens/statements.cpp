@@ -126,7 +126,8 @@ bool measures_offset(const Block& block, const Reading& r) {
 
 /// Cycles move according to their arguments and restore modal states.
 void run_cycle(const Block& block, Reading& r) {
-  const std::string_view why = why_not_followed(r);
+  std::string_view why = why_not_followed(r);
+  if (why.empty() && !empty(block.block_delete)) why = "'/' may skip this cycle";
   r.sorted = {};
   Move& move = start_move(block, r, Motion::feed);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
@@ -160,7 +161,6 @@ bool has_words_of_its_own(const Block& block, const Reading&) {
 void end_statement(const Block& block, Reading& r) {
   switch (block.statement) {
     case Statement::call:
-    case Statement::arc_not_read:
       return call_subprogram(block, r);
     case Statement::not_read:
       r.sorted = {};
@@ -200,12 +200,11 @@ void end_statement(const Block& block, Reading& r) {
   }
 }
 
-Block with_own_modes(const Block& block, Reading& r) {
-  Block result = block;
+void apply_own_modes(const Block& block, Reading& r) {
   bool modal = r.state.relative;
   for (const Word& word : block.words)
     if (word.letter == 'G' && (word.value == 90 || word.value == 91)) modal = word.value == 91;
-  if (std::none_of(block.words.begin(), block.words.end(), is_length_word)) return result;
+  if (std::none_of(block.words.begin(), block.words.end(), is_length_word)) return;
   bool all_relative = true, all_absolute = true;
   const auto relative = [&](const Word& word) {
     return word.mode == DistanceMode::modal ? modal : word.mode == DistanceMode::relative;
@@ -216,17 +215,10 @@ Block with_own_modes(const Block& block, Reading& r) {
     all_absolute = all_absolute && !relative(word);
   }
   if (all_relative != modal) r.block_relative = all_relative;
-  if (all_relative || all_absolute) return result;
-  // In a line each axis has its own mode. An arc with different modes is not followed.
-  const bool arc = std::any_of(block.words.begin(), block.words.end(), [](const Word& word) {
-    return std::string_view("IJKRP").find(word.letter) != std::string_view::npos;
-  });
-  for (Word& word : result.words)
-    if (is_length_word(word) && relative(word)) {
-      if (arc) word.literal = false;
+  if (all_relative || all_absolute) return;
+  for (const Word& word : block.words)
+    if (is_length_word(word) && relative(word))
       r.relative_axes = (r.relative_axes | 1U << (word.letter - 'X')) & 7U;
-    }
-  return result;
 }
 
 void apply_tool_edge(Reading& r) {

@@ -13,9 +13,9 @@ bool has_words_of_its_own(const Block& block, const Reading& reading);
 /// Effects of the statement after the words.
 void end_statement(const Block& block, Reading& reading);
 
-/// A block whose words have other modes than the modal state: sets `reading.block_relative`, and
-/// `reading.relative_axes` if only some words are differences. Of an arc these words are marked as unknown.
-Block with_own_modes(const Block& block, Reading& reading);
+/// For a block whose words have other modes than the modal state: sets `reading.block_relative`, and
+/// `reading.relative_axes` if only some words are differences.
+void apply_own_modes(const Block& block, Reading& reading);
 
 /// D: the tool's edge, whose length shifts Z. A tool change selects the first edge.
 void apply_tool_edge(Reading& reading);

@@ -34,7 +34,6 @@ enum class Statement : std::uint8_t {
   transform_off,  ///< TRAFOOF
   curve,          ///< CIP, CT, splines: a motion that is not supported
   not_read,       ///< skipped text has axis words or G codes
-  arc_not_read,   ///< an arc whose centre has an unsupported form
   smoothed,       ///< COMPCAD, CYCLE832
   data,           ///< an assignment to a variable of the control
   end             ///< RET

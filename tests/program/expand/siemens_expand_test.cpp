@@ -82,6 +82,7 @@ TEST_CASE("siemens: a flow that is not known from the text leaves the program un
              "the condition R1==1 is not known from the text");
   check_left("X1 GOTOF A\nX2\nA: M30\n", 1, "GOTO behind other words is not supported");
   check_left("A: X1\nREPEATB A P=3\nM30\n", 2, "REPEATB is not supported");
+  check_left("A: X1\nREPEAT A P=3\nM30\n", 2, "REPEAT of labels is not supported");
   check_left("X1\nENDIF\nM30\n", 2, "ENDIF has no beginning");
   check_left("X1\nLOOP\nM30\n", 2, "LOOP has no end");
   check_left("R1=1\n/IF R1==1 GOTOF A\nX1\nA: M30\n", 2, "a jump or a loop is in a block that '/' may skip");

@@ -31,6 +31,10 @@ bool is_fixed(const std::string& lines) {
 
 }  // namespace
 
+TEST_CASE("siemens: a cycle that '/' may skip is left alone for that reason") {
+  CHECK(drilled("/CYCLE81(50,0,2,-20)\n").left_alone.at(0).why == "'/' may skip this cycle");
+}
+
 TEST_CASE("siemens: all absolute heights of a called cycle are shifted, in their own digits") {
   CHECK(shifted_lines("CYCLE81(50,0,2,-20)\n") == "CYCLE81(50.125,0.125,2,-19.875)\n");
   CHECK(shifted_lines("N5 CYCLE82( 50.0, 0.0, 2 , -20.0 , , 0.5) ; hole\n") ==

@@ -101,6 +101,40 @@ TEST_CASE("siemens: a block of incremental words is relative, in a mixed block e
   CHECK(program.moves[3].known_end[1]);
 }
 
+TEST_CASE("siemens: each axis of an arc has its own mode, too") {
+  for (const std::string arc :
+       {"G3 X10 Y2 CR=6", "G3 X10 Y=IC(2) CR=6", "G3 X=IC(10) Y2 CR=6", "G91 G3 X10 Y=AC(2) CR=6"}) {
+    CAPTURE(arc);
+    const Program program = siemens(std::string(siemens_start) + "F500\nG1 X0 Y0\n" + arc + "\n");
+    CHECK(program.left_alone.empty());
+    REQUIRE(program.moves.back().arc);
+    CHECK(program.moves.back().end_mm == Vector3(10, 2, 50));
+    CHECK(program.moves.back().arc->radius_mm == 6);
+  }
+}
+
+TEST_CASE("siemens: the centre of an arc may be an expression") {
+  ReadOptions options{.dialect = "siemens", .unit = LengthUnit::millimetres, .evaluate = true};
+  const auto read_arc = [&](const std::string& arc) {
+    return read_program(std::string(siemens_start) + "R1=5\nG1 X10 Y0 F500\n" + arc + "\nG1 X1\n", "p.mpf",
+                        options);
+  };
+  for (const std::string arc :
+       {"G3 X0 Y0 I-5 J0", "G3 X0 Y0 I=-R1 J0", "G3 X0 Y0 I=IC(-R1) J=0", "G3 X0 Y0 I=AC(R1) J=AC(0)"}) {
+    CAPTURE(arc);
+    const Program program = read_arc(arc);
+    CHECK(program.left_alone.empty());
+    REQUIRE(program.moves.at(2).arc);
+    CHECK(program.moves[2].arc->centre_mm.x() == 5);
+  }
+  options.evaluate = false;
+  const Program unknown = read_arc("G3 X0 Y0 I=-R1 J0");
+  CHECK(unknown.left_alone.at(0).why ==
+        "the centre, radius or number of turns of the arc is a variable or an expression (--evaluate works "
+        "out constants)");
+  CHECK(unknown.moves.back().known_start == std::array{true, true, true});
+}
+
 TEST_CASE("siemens: expressions of R parameters fix their axis") {
   const Program program = siemens(std::string(siemens_start) + "R1=5 R2=R1*2\nG1 X=R1+5 Y7 F500\n");
   REQUIRE(program.moves.size() == 2);

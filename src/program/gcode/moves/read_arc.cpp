@@ -218,6 +218,16 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
     if (r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
 }
 
+std::string_view why_unknown(const Reading& r, bool start_known) {
+  if (!start_known) return "the start of the arc is not known";
+  if (words_are_plain(r.sorted)) return "the arc is not known";
+  return r.options.evaluate
+             ? "the centre, radius or number of turns of the arc is a variable or an expression "
+               "whose value is not known from the text"
+             : "the centre, radius or number of turns of the arc is a variable or an expression "
+               "(--evaluate works out constants)";
+}
+
 /// Limits the computing time of a short program. Reports the error at P, because without P there are fewer
 /// turns than blocks.
 void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vector3& start_mm) {
@@ -257,8 +267,7 @@ void read_arc(const Block& block, Reading& r) {
   if (move.arc) count_turns(block, r, *move.arc, move.start_mm);
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);
-    if (followed)
-      note_uncorrected(block, r, start_known ? "the arc is not known" : "the start of the arc is not known");
+    if (followed) note_uncorrected(block, r, why_unknown(r, start_known));
   }
   finish_move(r, move);
 }
