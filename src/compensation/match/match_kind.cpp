@@ -68,12 +68,27 @@ class KindComparison {
     if (!matched_.segment && !failure_) compare_unjudged(last);
     if (!failure_) compare_shifts(last);
     if (original_.cycle && last.cycle && !failure_) compare_cycle(last);
+    if (failure_ && is_lost_behind_piece()) fail_lost_piece();
     return std::move(failure_);
   }
 
  private:
   void fail(const Move& found, std::string what) {
     failure_ = matched_.failure_at(found.line, std::move(what));
+  }
+
+  // Behind a block that '/' may skip its axes are unknown: a piece is known only from words of its own.
+  bool is_lost_behind_piece() const {
+    if (!original_.block_delete || !all_known(original_.known_start)) return false;
+    return std::any_of(matched_.found.begin() + 1, matched_.found.end(), [](const auto& piece) {
+      return !all_known(piece.move->known_start) || !all_known(piece.move->known_end);
+    });
+  }
+
+  void fail_lost_piece() {
+    fail(matched_.last(),
+         "this block with '/' is divided: behind its first piece the position is unknown, and the other "
+         "pieces cannot be verified; remove '/', or give a larger --tolerance-mm");
   }
 
   void compare(std::size_t i) {

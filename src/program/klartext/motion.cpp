@@ -94,11 +94,13 @@ void place_coordinates(const KlartextBlock& block, KlartextReading& r, Move& mov
 
 void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReading& r, Move& move) {
   const bool has_time = find_word(r.words, "FT") != nullptr;  // of the whole block
-  const bool divided = !codes.acts_after && !r.state.corner && !held && !has_time;
+  // Behind a piece that '/' may skip the start of an arc would be unknown.
+  const bool skips_arc = move.block_delete && move.arc;
+  const bool divided = !codes.acts_after && !r.state.corner && !held && !has_time && !skips_arc;
   const bool feed = move.motion == Motion::feed;
   move.may_split = feed && divided;
   move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && divided;
-  move.stays_whole = codes.acts_after || has_time || find_word(r.words, "M") != nullptr;
+  move.stays_whole = codes.acts_after || has_time || skips_arc || find_word(r.words, "M") != nullptr;
 }
 
 /// Under M89 the following blocks, too, call the cycle at their end, until M99. The block of M89 and that of

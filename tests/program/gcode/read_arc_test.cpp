@@ -105,6 +105,14 @@ TEST_CASE("an arc in inches has its centre in mm") {
   CHECK(move.arc->centre_mm.isApprox(Vector3(12.7, 0, 0)));
 }
 
+TEST_CASE("an arc that '/' may skip stays one block") {
+  const Program program = read("G21 F100 G0 X0 Y0 Z2\n/G2 X5 I2.5\nG0 X0 Y0\nG2 X5 I2.5\n");
+  CHECK(program.moves.at(1).arc.has_value());
+  CHECK_FALSE(program.moves[1].may_split);
+  CHECK_FALSE(program.moves[1].may_jump);
+  CHECK(program.moves.at(3).may_split);
+}
+
 TEST_CASE("an arc with an unknown start is fixed on the words of its plane and unknown, other axes are not") {
   const Program program = read("G21 F100 G0 Y1 Z2\nG2 X5 Z3 I2.5\nG1 X0\n");
   const Move& arc = program.moves[1];

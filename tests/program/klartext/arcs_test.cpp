@@ -5,6 +5,13 @@
 using namespace counterflex;
 using namespace counterflex::test;
 
+TEST_CASE("Klartext: an arc that '/' may skip stays one block") {
+  const Program program = read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "/C X+20 Y+0 DR- F300",
+                                         "L X+0 Y+0", "CC X+10 Y+0", "C X+20 Y+0 DR-"}));
+  CHECK_FALSE(program.moves.at(1).may_split);
+  CHECK(program.moves.back().may_split);
+}
+
 TEST_CASE("klartext: an arc about CC moves with its centre") {
   const Program program =
       read(klartext({"L X+0 Y+0 Z+0 FMAX", "CC X+10 Y+0", "C X+20 Y+0 DR- F300", "C X+0 Y+0 DR-"}));

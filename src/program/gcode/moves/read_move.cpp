@@ -64,8 +64,10 @@ void allow_changes(const Reading& r, Move& move) {
   const bool tool_length = r.sets_tool_length;
   const bool acts_at_end = b.has(MAction::acts_after) || b.has(MAction::end) || b.has(MAction::tool_change) ||
                            b.has(MAction::retract) || b.has(MAction::machine);
+  // Behind a piece that '/' may skip the start of an arc would be unknown.
+  const bool skips_arc = move.block_delete && move.arc;
   const bool rigid = r.relative() != r.state.relative || move.handling != Handling::own ||
-                     any_axis(move.fixed) || move.cycle.has_value();
+                     any_axis(move.fixed) || move.cycle.has_value() || skips_arc;
   // Pieces of a G93 move need a share of its time. Pieces would not have the feed of the block alone.
   const bool shares_feed = !r.own_feed && (move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0);
   // Inserted words and blocks are read in the modal state.
