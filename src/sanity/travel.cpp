@@ -34,6 +34,17 @@ void TravelTally::add(const Mechanism& mechanism, const Eigen::VectorXd& rho, in
   share_ = at->share;
 }
 
+namespace {
+
+std::string skipped_words(const TravelTally& tally) {
+  const std::size_t count = tally.skipped();
+  if (count == 0) return "";
+  return fmt::format("; not judged: {} move{} to places that are not known, the first in line {}", count,
+                     count == 1 ? "" : "s", tally.first_skipped());
+}
+
+}  // namespace
+
 std::string unknown_behind(const Failure& failure) {
   return failure.line > 0 ? fmt::format("unknown after line {}, where the run ended", failure.line)
                           : "unknown: the run ended early";
@@ -54,9 +65,9 @@ SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
     return {"travel", SanityState::doubtful,
             fmt::format("line {}: {}", least->line, outside_travel_words(travel, least->value))};
   return {"travel", SanityState::ok,
-          fmt::format("least margin {} on {}, rapids included: {} at line {}, travel {}",
+          fmt::format("least margin {} on {}, rapids included: {} at line {}, travel {}{}",
                       axis_value(travel, least->margin), travel.name, axis_value(travel, least->value),
-                      least->line, travel_range(travel))};
+                      least->line, travel_range(travel), skipped_words(tally))};
 }
 
 }  // namespace counterflex

@@ -6,6 +6,7 @@
 #include <numbers>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
@@ -105,30 +106,68 @@ double duration_of(const Move& move) {
   return feed > 0 ? way / feed : 0;
 }
 
-Extent extent_of(const Move& move) {
-  Extent extent{move.start_mm.cwiseMin(move.end_mm), move.start_mm.cwiseMax(move.end_mm)};
-  const Curve curve = curve_of(move);
-  if (!curve.arc) return extent;
+std::vector<double> outermost_fractions(const Curve& curve) {
+  constexpr double along_normal = 1e-9;
+  std::vector<double> fractions;
+  if (!curve.arc) return fractions;
+  const Arc& arc = *curve.arc;
   for (int axis = 0; axis < 3; ++axis) {
-    if (axis == move.arc->normal) continue;
+    const Vector3 in_plane = Vector3::Unit(axis) - arc.normal[axis] * arc.normal;
+    if (in_plane.norm() < along_normal) continue;
     for (const double side : {-1.0, 1.0}) {
-      const Vector3 outermost = curve.arc->centre + side * Vector3::Unit(axis);
-      const double u =
-          sweep_between(curve.start, outermost, curve.arc->centre, curve.arc->normal) / curve.arc->sweep;
-      if (u >= 1) continue;
-      const Vector3 p = point_at(curve, u);
-      extent.least = extent.least.cwiseMin(p);
-      extent.most = extent.most.cwiseMax(p);
+      const Vector3 outermost = arc.centre + side * in_plane;
+      const double u = sweep_between(curve.start, outermost, arc.centre, arc.normal) / arc.sweep;
+      if (u < 1) fractions.push_back(u);
     }
+  }
+  std::sort(fractions.begin(), fractions.end());
+  return fractions;
+}
+
+Extent extent_of(const Curve& curve) {
+  Extent extent{curve.start, curve.start};
+  for (const Vector3& p : points_along(curve)) {
+    extent.least = extent.least.cwiseMin(p);
+    extent.most = extent.most.cwiseMax(p);
   }
   return extent;
 }
 
+Extent extent_of(const Move& move) {
+  return extent_of(curve_of(move));
+}
+
+std::vector<double> fractions_along(const Curve& curve) {
+  if (!curve.arc) return {0, 1};
+  const int pieces = 1 + static_cast<int>(curve.arc->sweep / (std::numbers::pi / 8));
+  std::vector<double> fractions = outermost_fractions(curve);
+  for (int i = 0; i <= pieces; ++i) fractions.push_back(static_cast<double>(i) / pieces);
+  std::sort(fractions.begin(), fractions.end());
+  fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
+  return fractions;
+}
+
 std::vector<Vector3> points_along(const Curve& curve) {
-  const int pieces = curve.arc ? 1 + static_cast<int>(curve.arc->sweep / (std::numbers::pi / 8)) : 1;
   std::vector<Vector3> points;
-  for (int i = 0; i <= pieces; ++i) points.push_back(point_at(curve, static_cast<double>(i) / pieces));
+  for (const double u : fractions_along(curve)) points.push_back(point_at(curve, u));
   return points;
+}
+
+std::optional<Curve> hole_of_cycle(const Move& move) {
+  Curve hole{move.end_mm, move.end_mm, {}};
+  if (move.cycle && move.cycle->repeats > 0 && move.known_end[0] && move.known_end[1]) {
+    hole.start.z() = move.cycle->retract_mm;
+    hole.end.z() = move.cycle->bottom_mm;
+    return hole;
+  }
+  if (!move.makes_hole || !move.called || !all_known(move.known_end)) return std::nullopt;
+  hole.end.z() = move.called->heights_mm[2];
+  return std::isfinite(hole.end.z()) ? std::optional(hole) : std::nullopt;
+}
+
+bool goes_to_unknown_places(const Move& move) {
+  const bool drills = move.cycle ? move.cycle->repeats > 0 : move.makes_hole;
+  return any_axis(move.fixed) || move.mills_at_end || (drills && !hole_of_cycle(move));
 }
 
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "support/programs.hpp"
 
 using namespace counterflex;
@@ -149,4 +150,59 @@ TEST_CASE("points along an arc are on it, near to each other, from its start to 
     CHECK((points[i] - points[i - 1]).norm() < 10 * 22.5 * deg);
   }
   CHECK(points_along(curve_of(program.moves[1])).size() == 2);
+}
+
+TEST_CASE("an arc in a turned frame goes nowhere beyond the points along it") {
+  const Program program = ProgramBuilder({10, 0, 0}).arc({0, -10, 0}, {0, 0, 0}, 600).program;
+  for (const double angle : {0.0, 10 * deg, 100 * deg}) {
+    CAPTURE(angle);
+    const Pose X_AP{exp_so3(Vector3(0.5, -0.7, angle)), Vector3(1, 2, 3)};
+    const Curve curve = X_AP * curve_of(program.moves[0]);
+    const Extent extent = extent_of(curve);
+    Vector3 least = curve.start, most = curve.start;
+    for (int i = 0; i <= 10000; ++i) {
+      least = least.cwiseMin(point_at(curve, 1e-4 * i));
+      most = most.cwiseMax(point_at(curve, 1e-4 * i));
+    }
+    CHECK((least - extent.least).cwiseAbs().maxCoeff() < 1e-6);
+    CHECK((most - extent.most).cwiseAbs().maxCoeff() < 1e-6);
+  }
+}
+
+TEST_CASE("a hole is known from where its feed begins to its bottom, if place and depth are") {
+  Program program = ProgramBuilder({0, 0, 5}).rapid({10, 20, 0}).program;
+  Move& move = program.moves[0];
+  CHECK_FALSE(hole_of_cycle(move));
+  CHECK_FALSE(goes_to_unknown_places(move));
+  SUBCASE("of a cycle in the block") {
+    move.cycle.emplace().bottom_mm = -30;
+    move.cycle->retract_mm = 2;
+    move.known_end[2] = false;
+    const auto hole = hole_of_cycle(move);
+    REQUIRE(hole);
+    CHECK(hole->start == Vector3(10, 20, 2));
+    CHECK(hole->end == Vector3(10, 20, -30));
+    move.cycle->repeats = 0;
+    CHECK_FALSE(hole_of_cycle(move));
+    CHECK_FALSE(goes_to_unknown_places(move));
+  }
+  SUBCASE("of a cycle that is called") {
+    move.makes_hole = true;
+    move.called.emplace().heights_mm = {0, 5, -30, 0};
+    const auto hole = hole_of_cycle(move);
+    REQUIRE(hole);
+    CHECK(hole->start == Vector3(10, 20, 0));
+    CHECK(hole->end == Vector3(10, 20, -30));
+    move.called->heights_mm[2] = std::nan("");
+    CHECK_FALSE(hole_of_cycle(move));
+    CHECK(goes_to_unknown_places(move));
+  }
+  SUBCASE("not of one that mills around its place, or of a position that is a variable") {
+    move.mills_at_end = true;
+    CHECK_FALSE(hole_of_cycle(move));
+    CHECK(goes_to_unknown_places(move));
+    move.mills_at_end = false;
+    move.fixed[0] = true;
+    CHECK(goes_to_unknown_places(move));
+  }
 }

@@ -128,13 +128,14 @@ struct CycleMove {
   int repeats = 1;  ///< L or K
 };
 
-/// A drilling cycle of a Sinumerik, called in the block or by every block with a position (MCALL). Its
-/// heights are absolute and shift with the hole.
+/// A drilling cycle of a Sinumerik, called in the block or by every block with a position (MCALL), or of
+/// Klartext, whose heights are not words of a call. The heights are absolute and shift with the hole.
 struct CalledCycle {
   std::string modal;  ///< MCALL with its call, without N and comment; empty: the block itself calls the cycle
   int line = 0;       ///< line of the call or of MCALL, in the file
   /// RFP, RTP, DP, FDEP; spans in `modal`, or in Program::text if `modal` is empty.
   std::array<PackedAxisWord, 4> heights;
+  /// DP without a word is given by DPR, or NaN: the depth is not known.
   std::array<double, 4> heights_mm{};
 };
 
@@ -222,7 +223,7 @@ struct Move {
   Vector3 end_mm = Vector3::Zero();
   BoxedOptional<ArcMove> arc;
   BoxedOptional<CycleMove> cycle;
-  BoxedOptional<CalledCycle> called;  ///< if set, the word of Z is its first height
+  BoxedOptional<CalledCycle> called;  ///< with words: the word of Z is its first height
   BoxedOptional<CornerEnds> corners;  ///< corners at its ends; infinite if a size is unknown
   /// Of a program that turns the tool. Its position counts as known only where its orientation is.
   BoxedOptional<MoveOrientation> orientation;

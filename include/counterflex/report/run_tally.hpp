@@ -212,7 +212,7 @@ class RunTally {
 
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
-  void add_to_travel(const Waypoint& w, const Job& window);
+  void add_to_travel(const Waypoint& w, const Job& window, double u_before);
   void add_as_programmed(const Waypoint& w);
   void add_reversals(const Job& window);
   MoveFacts facts_of(const Job& window, const Waypoint& w) const;

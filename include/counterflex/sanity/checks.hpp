@@ -78,28 +78,37 @@ struct AxisValues {
   int line = 0;              ///< where the margin is least
 };
 
-/// The values of all axes over the commanded targets of a path, rapids included, and the least margin.
+/// The values of all axes over the commanded targets of a path, rapids and the bottoms of holes included, and
+/// the least margin.
 /// Rotary axes count on over full turns.
 class TravelTally {
  public:
   /// Actuator values at a place (m, rad), and the line of its move.
   void add(const Mechanism& mechanism, const Eigen::VectorXd& rho, int line);
 
+  /// The places of a move that are not known, or not solved.
+  void skip(int line) {
+    if (skipped_++ == 0) first_skipped_ = line;
+  }
+
   /// None: no actuator has a limit, or nothing was added.
   const std::optional<LeastMargin>& least() const { return tightest_; }
   const std::vector<AxisValues>& axes() const { return axes_; }  ///< empty: nothing was added
   std::size_t places() const { return places_; }
+  std::size_t skipped() const { return skipped_; }  ///< moves with such places
+  int first_skipped() const { return first_skipped_; }
 
  private:
   std::optional<LeastMargin> tightest_;
   std::vector<AxisValues> axes_;
   Eigen::VectorXd last_;  ///< actuator values, counted on
   double share_ = 0;      ///< of the travel, as `AxisPlace` has it
-  std::size_t places_ = 0;
+  std::size_t places_ = 0, skipped_ = 0;
+  int first_skipped_ = 0;
 };
 
 /// `named`: the machine without a tool, whose actuators have names. `failure`: why the path was not followed
-/// to its end.
+/// to its end. The text names what was skipped.
 SanityCheck check_travel(const Mechanism& named, const TravelTally& tally,
                          const std::optional<Failure>& failure);
 

@@ -92,8 +92,9 @@ struct Extent {
 };
 Extent extent_of(const Move& move);
 
-/// Places along a curve that show how far it reaches: a line's ends, and points of an arc at most 22.5
-/// degrees apart. Begins with the start and ends with the end.
+/// Places along a curve that show how far it reaches: a line's ends, and points of an arc that are at most
+/// 22.5 degrees apart, with those that are outermost along the axes of its frame. Begins with the start and
+/// ends with the end.
 std::vector<Vector3> points_along(const Curve& curve);
 
 /// Builds the path of `program` in the machine frame; `frames` are those of its work offsets. Moves with an

@@ -9,6 +9,7 @@
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/sanity/checks.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "run/program_axes.hpp"
 #include "run/sanity.hpp"
 #include "run/work.hpp"
@@ -41,6 +42,10 @@ void add_move(const Program& program, const Move& move, MoveFacts& facts) {
     if (!move.known_end[axis]) continue;
     facts.least[i] = std::min(facts.least[i], extent.least[i]);
     facts.most[i] = std::max(facts.most[i], extent.most[i]);
+  }
+  if (const auto hole_mm = hole_of_cycle(move)) {
+    facts.least.z() = std::min(facts.least.z(), hole_mm->end.z());
+    facts.most.z() = std::max(facts.most.z(), hole_mm->end.z());
   }
   add_once(facts.offsets, program.frames[move.frame].work_offset);
   add_once(facts.units, move.unit);
@@ -176,41 +181,71 @@ nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   return json;
 }
 
-/// Why the nominal machine cannot reach a place in a move of `line`. `base`: the machine without a tool.
-std::optional<Failure> go_to(NominalToolPath& nominal, const Model& base, const CommandedPlace& at,
-                             const Program& window, int line) {
-  const Status status = nominal.go_to(at.model, at.target, at.R);
-  if (status != Status::converged)
-    return Failure{ErrorKind::not_compensated, line,
-                   fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
-                   status};
-  CommandedPlace reached = at;
-  reached.rho = actuator_values(at.model.mechanism, nominal.configuration());
-  if (within_travel(at.model.mechanism, reached.rho)) return std::nullopt;
-  if (const auto word = ambiguous_integer_word(window, line))
-    return Failure{ErrorKind::program_text, word->line, word->what};
-  return Failure{ErrorKind::limit, line, outside_travel_words(base.mechanism, reached), 0,
-                 Status::outside_travel};
-}
+/// Goes with the nominal machine to the places of a program. `base`: the machine without a tool.
+class PlacesReached {
+ public:
+  PlacesReached(const Model& base, const ToolModels& tools, const std::vector<WorkFrame>& frames)
+      : base_(base), tools_(tools), frames_(frames), nominal_(base) {}
 
-/// The first place, end of a line or on an arc, that the nominal machine does not reach.
-std::optional<Failure> first_unreached(const Model& base, const ToolModels& tools,
-                                       const std::vector<WorkFrame>& frames, ProgramReader reader,
-                                       TravelTally& travel) {
-  NominalToolPath nominal(base);
-  while (reader.next())
-    for (const Segment& segment : build_toolpath(reader.window(), frames).segments) {
-      const long tool = reader.window().moves[segment.move].tool;
-      const Model& model = model_with(base, &tools, tool);
-      const std::size_t parts = points_along(segment.wanted).size() - 1;
-      for (std::size_t i = 1; i <= parts; ++i) {
-        const double u = static_cast<double>(i) / static_cast<double>(parts);
-        const CommandedPlace at{model, frames[segment.frame], tool, point_at(segment.wanted, u),
-                                orientation_at(segment, u)};
-        if (const auto failure = go_to(nominal, base, at, reader.window(), segment.line)) return failure;
-        travel.add(model.mechanism, actuator_values(model.mechanism, nominal.configuration()), segment.line);
-      }
+  /// Why a place of the window is not reached: an end of a line, a place on an arc, the bottom of a hole.
+  std::optional<Failure> add(const Program& window) {
+    const std::vector<Segment> segments = build_toolpath(window, frames_).segments;
+    std::size_t next = 0;
+    for (std::size_t m = 0; m < window.moves.size(); ++m) {
+      const Move& move = window.moves[m];
+      if (goes_to_unknown_places(move)) travel_.skip(move.line);
+      const bool has_segment = next < segments.size() && segments[next].move == m;
+      if (has_segment)
+        if (auto failure = go_along(segments[next++], window, move)) return failure;
+      if (const auto hole_mm = hole_of_cycle(move))
+        if (auto failure = go_to(wanted_frame(frames_[move.frame]) * (hole_mm->end * mm), {}, window, move))
+          return failure;
     }
+    return std::nullopt;
+  }
+
+  const TravelTally& travel() const { return travel_; }
+
+ private:
+  std::optional<Failure> go_along(const Segment& segment, const Program& window, const Move& move) {
+    for (const double u : fractions_along(segment.wanted))
+      if (u > 0)
+        if (auto failure = go_to(point_at(segment.wanted, u), orientation_at(segment, u), window, move))
+          return failure;
+    return std::nullopt;
+  }
+
+  std::optional<Failure> go_to(const Vector3& p_M, const std::optional<Matrix3>& R_M, const Program& window,
+                               const Move& move) {
+    const Model& model = model_with(base_, &tools_, move.tool);
+    const Status status = nominal_.go_to(model, p_M, R_M);
+    if (status != Status::converged)
+      return Failure{ErrorKind::not_compensated, move.line,
+                     fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
+                     status};
+    const Eigen::VectorXd rho = actuator_values(model.mechanism, nominal_.configuration());
+    if (within_travel(model.mechanism, rho)) {
+      travel_.add(model.mechanism, rho, move.line);
+      return std::nullopt;
+    }
+    if (const auto word = ambiguous_integer_word(window, move.line))
+      return Failure{ErrorKind::program_text, word->line, word->what};
+    const CommandedPlace at{model, frames_[move.frame], move.tool, p_M, R_M, rho};
+    return Failure{ErrorKind::limit, move.line, outside_travel_words(base_.mechanism, at), 0,
+                   Status::outside_travel};
+  }
+
+  const Model& base_;
+  const ToolModels& tools_;
+  const std::vector<WorkFrame>& frames_;
+  NominalToolPath nominal_;
+  TravelTally travel_;
+};
+
+/// The first place that is not reached.
+std::optional<Failure> first_unreached(ProgramReader reader, PlacesReached& places) {
+  while (reader.next())
+    if (auto failure = places.add(reader.window())) return failure;
   return std::nullopt;
 }
 
@@ -221,14 +256,14 @@ void check_reach(const Overview& program, ProgramReader reader, MachineInput inp
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
   if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
   const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);
-  TravelTally travel;
-  const auto failure = first_unreached(input.model, tools, work.frames, std::move(reader), travel);
+  PlacesReached places(input.model, tools, work.frames);
+  const auto failure = first_unreached(std::move(reader), places);
   checked.json["reached"] = !failure;
   checked.text +=
       row("reach", failure ? fmt::format("line {}: {}", failure->line, failure->what)
                            : fmt::format("{} reaches the ends of all moves", shown_name(input.file.path)));
   SanityChecks sanity = program_sanity({input, tools, lengths, work, program});
-  sanity.push_back(check_travel(input.model.mechanism, travel, failure));
+  sanity.push_back(check_travel(input.model.mechanism, places.travel(), failure));
   add_sanity(sanity, input.machine, checked, console);
   if (!failure) return;
   checked.error_kind = failure->kind;

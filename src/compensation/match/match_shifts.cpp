@@ -17,7 +17,7 @@ constexpr double height_rounding_mm = 1e-3 * (1 + 1e-9);  // of both, to three d
 
 // Whether the move's height is a word of a block before it: Q203 of a cycle's definition, MCALL.
 bool takes_surface(const Move& move) {
-  if (move.called) return !move.called->modal.empty();
+  if (move.called && move.called->heights[0]) return !move.called->modal.empty();
   return move.words[2] && move.words[2]->number.begin < move.block.begin;
 }
 

@@ -8,6 +8,8 @@
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/piece_samples.hpp"
 #include "compensation/windows/parallel.hpp"
+#include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/compensation/outermost_commands.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
@@ -137,6 +139,39 @@ Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const
   return failure;
 }
 
+// Why the nominal machine does not come to a command beside the waypoint `w`.
+std::optional<Failure> failure_beside(const Job& job, PlaceSolver& solver, const Waypoint& w,
+                                      const TipPosition& command) {
+  const Move& move = job.program.moves[w.move];
+  CommandedPlace at{*command.model, job.path.frames[move.frame], move.tool, command.p_MT, command.R_MT};
+  const NominalResult there = solver.nominal(command);
+  Status status = there.status;
+  if (status == Status::converged) {
+    at.rho = actuator_values(at.model.mechanism, there.configuration);
+    if (within_travel(at.model.mechanism, at.rho)) return std::nullopt;
+    status = Status::outside_travel;
+  }
+  Failure failure = status_failure(job, status, at, w.line);
+  failure.corrected_line = w.corrected_line;
+  return failure;
+}
+
+// Cuts the run off at the first waypoint beside which a command is not reached.
+void judge_outermost(const Job& job, PlaceSolver& solver, ForwardRun& run) {
+  const Waypoint* before = nullptr;
+  for (std::size_t i = 0; i < run.waypoints.size(); ++i) {
+    const Waypoint& w = run.waypoints[i];
+    if (w.status != Status::converged) return;
+    for (const TipPosition& command : outermost_commands(job, w, fraction_before(before, w)))
+      if (auto failure = failure_beside(job, solver, w, command)) {
+        run.waypoints.resize(i + 1);
+        run.failure = std::move(failure);
+        return;
+      }
+    before = &w;
+  }
+}
+
 ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Questions& questions,
                        const std::optional<Vector3>& command) {
   PlaceSolver solver(job);
@@ -145,6 +180,7 @@ ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Ques
   add_questions(job, solver, all, questions, run.waypoints);
   if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged)
     run.failure = failure_at(job, all, all.order[run.waypoints.size() - 1], run.waypoints.back());
+  judge_outermost(job, solver, run);
   return run;
 }
 

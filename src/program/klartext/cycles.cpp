@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <limits>
 #include <utility>
 
 #include "counterflex/files/text.hpp"
@@ -117,15 +118,32 @@ void read_plunging_feed(const KlartextBlock& block, KlartextReading& r) {
   r.state.plunging_feed_mm_min = known ? std::max(found->value_mm, 0.0) : 0;
 }
 
-/// Q200 and Q204 of the block.
-void read_clearances(const KlartextBlock& block, KlartextReading& r, bool followed) {
-  const auto read = [&](std::string_view name, std::optional<double>& clearance_mm) {
+/// Q200, Q201 and Q204 of the block.
+void read_heights(const KlartextBlock& block, KlartextReading& r, bool followed) {
+  const auto read = [&](std::string_view name, std::optional<double>& height_mm) {
     if (!names(block, name, r)) return;
     const auto found = parameter_of(name, block, r);
-    clearance_mm = followed && found ? std::optional(found->value_mm) : std::nullopt;
+    height_mm = followed && found ? std::optional(found->value_mm) : std::nullopt;
   };
   read("Q200", r.state.clearance_mm);
+  read("Q201", r.state.depth_mm);
   read("Q204", r.state.second_clearance_mm);
+}
+
+/// Whether Q201 is not the depth: a centring to a diameter (Q343), or one of which this is not known.
+bool centres_to_diameter(int cycle, const KlartextBlock& block, const KlartextReading& r) {
+  if (cycle != 240 || !names(block, "Q343", r)) return false;
+  const auto selection = parameter_of("Q343", block, r);
+  return !selection || selection->value_mm != 0;
+}
+
+/// The heights of the hole at the end of a move. They are not words of its block.
+CalledCycle called_cycle(const KlartextState& state, const KlartextSurface& surface, double end_mm) {
+  const double unknown = std::numeric_limits<double>::quiet_NaN();
+  CalledCycle cycle;
+  cycle.heights_mm = {surface.z_mm, end_mm, state.depth_mm ? surface.z_mm + *state.depth_mm : unknown,
+                      unknown};
+  return cycle;
 }
 
 /// The words behind the number in the line of an old cycle. Empty if one of them is unknown.
@@ -180,12 +198,14 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   r.state.takes_surface = counts_from_surface(cycle) && runs_once;
   r.state.clearance_mm.reset();
   r.state.second_clearance_mm.reset();
+  r.state.depth_mm.reset();
   r.state.plunging_feed_mm_min = 0;
   if (!r.state.takes_surface) return;
   if (plunges(cycle)) read_plunging_feed(block, r);
   r.state.surface = surface_of(block, r);
   if (r.state.surface) r.state.surface->of_definition = true;
-  read_clearances(block, r, true);
+  read_heights(block, r, true);
+  if (centres_to_diameter(cycle, block, r)) r.state.depth_mm.reset();
 }
 
 }  // namespace
@@ -218,14 +238,15 @@ bool take_hole(KlartextReading& r, Move& move) {
   }
   move.end_mm.z() = surface.z_mm;
   move.known_end[2] = state.known[2] = end_is_known;
-  if (end_is_known)
-    state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
+  if (!end_is_known) return true;
+  state.position_mm.z() = surface.z_mm + std::max(*state.clearance_mm, *state.second_clearance_mm);
+  move.called = called_cycle(state, surface, state.position_mm.z());
   return true;
 }
 
 void read_cycle_parameter(const KlartextBlock& block, KlartextReading& r) {
   const bool followed = r.state.takes_surface && !may_not_run(block, r) && r.state.displacements.empty();
-  read_clearances(block, r, followed);
+  read_heights(block, r, followed);
   if (r.state.plunging_feed_mm_min > 0 && names(block, "Q206", r)) {
     if (followed)
       read_plunging_feed(block, r);

@@ -176,6 +176,7 @@ void read_parameter(const KlartextBlock& block, KlartextReading& r) {
   watch_system_data(block, r);
   if (block.head == "Q") return read_cycle_parameter(block, r);
   const std::string_view computed = after_head(r.program.text, block);
+  if (computed.find("201") != std::string_view::npos) r.state.depth_mm.reset();
   if (computed.find("203") != std::string_view::npos) r.state.surface.reset();
   if (computed.find("206") != std::string_view::npos) r.state.plunging_feed_mm_min = 0;
 }

@@ -70,6 +70,7 @@ struct KlartextState {
   bool calls_each = false;                 ///< M89: every move ends with the cycle, until M99
   /// Q200 and Q204 of that cycle, above the surface.
   std::optional<double> clearance_mm, second_clearance_mm;
+  std::optional<double> depth_mm;             ///< Q201 of that cycle, its bottom above the surface
   double plunging_feed_mm_min = 0;            ///< Q206 of that cycle; 0: it does not drill, or not known
   std::optional<KlartextSurface> surface;     ///< surface of that cycle, if all of it shifts with the surface
   std::optional<CornerSize> corner;           ///< RND or CHF before the next move
@@ -201,7 +202,7 @@ bool take_hole(KlartextReading& reading, Move& move);
 /// The machine moves the axis by itself: its position is unknown.
 void move_by_machine(KlartextReading& reading, std::size_t axis);
 
-/// Q203, Q200 and Q204 = plain numbers, if the defined cycle uses them.
+/// Q203, Q200, Q201 and Q204 = plain numbers, if the defined cycle uses them.
 void read_cycle_parameter(const KlartextBlock& block, KlartextReading& reading);
 
 /// Calls the cycle of an older control at the end of `move`, with which it is shifted.

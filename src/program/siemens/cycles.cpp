@@ -1,6 +1,8 @@
 #include "program/siemens/cycles.hpp"
 
 #include <algorithm>
+#include <cmath>
+#include <limits>
 
 #include "counterflex/files/text.hpp"
 #include "program/gcode/moves/read_move.hpp"
@@ -34,7 +36,8 @@ constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
 constexpr std::string_view modal_call = "MCALL";
 
 // Indices in the argument list.
-constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, first_depth = 5, bore_feed = 6;
+constexpr std::size_t retract_plane = 0, reference_plane = 1, final_depth = 3, depth_below = 4,
+                      first_depth = 5, bore_feed = 6;
 
 /// The name of a call and the spans of its arguments, without blanks.
 struct ArgumentList {
@@ -86,6 +89,13 @@ std::optional<Argument> number_at(std::string_view text, const ArgumentList& cal
   return Argument{{span, decimals}, *read_number(number)};
 }
 
+/// DPR, the depth below the reference plane, as a height; NaN if it is not a plain number.
+double height_below(std::string_view text, const ArgumentList& call, double reference_mm) {
+  const bool given = depth_below < call.arguments.size() && !empty(call.arguments[depth_below]);
+  const auto depth = given ? number_at(text, call, depth_below) : std::nullopt;
+  return depth ? reference_mm - std::abs(depth->value) : std::numeric_limits<double>::quiet_NaN();
+}
+
 /// Fills `cycle` from the arguments; false if a height is not a plain number.
 bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
   const bool pecks = is_word(call.name, "CYCLE83");
@@ -101,6 +111,7 @@ bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& 
     cycle.heights[height] = argument->word;
     cycle.heights_mm[height] = argument->value;
   }
+  if (!cycle.heights[2]) cycle.heights_mm[2] = height_below(text, call, cycle.heights_mm[0]);
   return true;
 }
 

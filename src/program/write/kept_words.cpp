@@ -104,7 +104,8 @@ std::string without_rewritten_words(const Program& program, const Move& move, bo
     for (; at < end; ++at)
       if (program.text[at] != ' ' && program.text[at] != '\t') text += program.text[at];
   };
-  const bool arguments = move.called && move.called->modal.empty();  // CYCLE81(50,0,2,-20)
+  // CYCLE81(50,0,2,-20)
+  const bool arguments = move.called && move.called->heights[0] && move.called->modal.empty();
   for (const Span& number : rewritten_numbers(move)) {
     keep(number.begin);
     const bool bracket = !arguments && drop_letter(text, klartext);

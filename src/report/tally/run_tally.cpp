@@ -2,8 +2,10 @@
 
 #include <algorithm>
 
+#include "counterflex/compensation/outermost_commands.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "report/text/control.hpp"
 
 namespace counterflex {
@@ -46,6 +48,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
   std::size_t segment = no_segment;
   std::int32_t operation = PathTally::no_operation;
   MoveFacts facts;
+  const Waypoint* before = nullptr;
   for (const Waypoint& w : waypoints) {
     if (w.segment != segment || segment == no_segment) {
       segment = w.segment;
@@ -63,7 +66,8 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     feed_.add(w, miss, window);
     if (window.options.only_significant) add_as_programmed(w);
     add(w, operation, facts, miss <= window.options.tolerance);
-    if (w.status == Status::converged) add_to_travel(w, window);
+    if (w.status == Status::converged) add_to_travel(w, window, fraction_before(before, w));
+    before = &w;
   }
 }
 
@@ -72,14 +76,28 @@ void RunTally::add_as_programmed(const Waypoint& w) {
   as_programmed_->add(w);
 }
 
-void RunTally::add_to_travel(const Waypoint& w, const Job& window) {
+void RunTally::add_to_travel(const Waypoint& w, const Job& window, double u_before) {
   const Model& model = model_of(window, w.move);
   if (model.mechanism.controlled.empty()) return;
+  for (const TipPosition& command : outermost_commands(window, w, u_before))
+    if (const auto rho = actuators_at(command)) travel_.add(model.mechanism, *rho, w.line);
   travel_.add(model.mechanism, w.rho, w.line);
 }
 
+namespace {
+
+/// Whether a cycle is called where the tool already is: no waypoint is there.
+bool drills_without_waypoint(const Move& move) {
+  return move.makes_hole && all_known(move.known_start) && all_known(move.known_end) &&
+         move.start_mm == move.end_mm;
+}
+
+}  // namespace
+
 void RunTally::add_window(const Job& window) {
   feed_.add_window(window);
+  for (const Move& move : window.program.moves)
+    if (goes_to_unknown_places(move) || drills_without_waypoint(move)) travel_.skip(move.line);
   add_forces(window.forces);
   add_reversals(window);
 }

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "program/klartext/klartext_text.hpp"
 
 using namespace counterflex;
@@ -41,6 +43,24 @@ TEST_CASE(
                   "CYCL DEF 200 DRILLING ~\n  Q200=2 ~\n  Q201=-10 ~\n  Q203=+1.625 ;SURFACE ~\n  Q204=50",
                   "L X+2.5 Y+2.75 FMAX M99", "L X+4.5 Y+2.75 FMAX M99", "CYCL CALL",
                   "L X+0.5 Y-0.25 Z+50.125 FMAX"}));
+}
+
+TEST_CASE("klartext: the bottom of a hole is Q201 above its surface, if that is a plain number") {
+  const auto bottom_behind = [](const std::string& cycle, const std::string& parameter = "L X+1") {
+    const Program program = read(
+        klartext({"L X+1 Y+0 Z+50 FMAX", "CYCL DEF " + cycle + " ~\n  Q200=2 ~\n  Q203=+1.5 ~\n  Q204=50",
+                  parameter, "L X+2 Y+3 FMAX M99"}));
+    REQUIRE(program.moves.back().called);
+    return program.moves.back().called->heights_mm[2];
+  };
+  CHECK(bottom_behind("200 DRILLING ~\n  Q201=-10.25 ;DEPTH") == -8.75);
+  CHECK(bottom_behind("200 DRILLING ~\n  Q201=-10.25 ;DEPTH", "Q201 = -30") == -28.5);
+  CHECK(bottom_behind("240 CENTERING ~\n  Q343=+0 ~\n  Q201=-3") == -1.5);
+  CHECK(std::isnan(bottom_behind("200 DRILLING ~\n  Q201=+Q5")));
+  CHECK(std::isnan(bottom_behind("200 DRILLING ~\n  Q201=-10", "FN 1: Q201 = +Q5 + +1")));
+  CHECK(std::isnan(bottom_behind("200 DRILLING ~\n  Q201=-10", "Q201 = +Q5")));
+  CHECK(std::isnan(bottom_behind("240 CENTERING ~\n  Q343=+1 ~\n  Q201=-3")));
+  CHECK(std::isnan(bottom_behind("204 BACK BORING ~\n  Q249=+5")));
 }
 
 TEST_CASE("klartext: a hole at another height repeats the statement that has its cycle's surface") {

@@ -1,6 +1,8 @@
 /// Drilling cycles of a Sinumerik: their heights are shifted with the holes.
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "counterflex/program/program.hpp"
 #include "program/reading.hpp"
 
@@ -55,6 +57,19 @@ TEST_CASE("siemens: a called cycle leaves the tool at its retract plane") {
   CHECK(hole.end_mm == Vector3(10, 10, 0));
   CHECK(program.moves[2].start_mm == Vector3(10, 10, 30));
   CHECK(all_known(program.moves[2].known_start));
+}
+
+TEST_CASE("siemens: the bottom of a hole is DP, or DPR below the reference plane, or not known") {
+  const auto bottom_of = [](const std::string& call) {
+    const Program program = drilled(call + "\n");
+    REQUIRE(program.moves.back().called);
+    return program.moves.back().called->heights_mm[2];
+  };
+  CHECK(bottom_of("CYCLE81(50,0,2,-20)") == -20);
+  CHECK(bottom_of("CYCLE82(50,1,2,,15,0.5)") == -14);
+  CHECK(bottom_of("CYCLE82(50,1,2,,-15)") == -14);
+  CHECK(std::isnan(bottom_of("CYCLE81(50,0,2)")));
+  CHECK(std::isnan(bottom_of("CYCLE81(50,0,2,,R1)")));
 }
 
 TEST_CASE("siemens: MCALL is written again if the heights of a hole differ from those in the text") {

@@ -228,7 +228,7 @@ void Coverage::refuse(const Claim& a, const Claim& b, int line) const {
 bool in_air(const ForceSource& source, const Move& move) {
   if (!source.air_above_mm) return false;
   if (!drills(move)) return extent_of(move).least.z() > *source.air_above_mm;
-  // How deep a called cycle drills is not known.
+  // How deep a called cycle drills is not always known.
   return move.cycle && std::min(move.cycle->bottom_mm, move.cycle->retract_mm) > *source.air_above_mm;
 }
 
