@@ -7,7 +7,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/parameters.hpp"
 #include "counterflex/program/program_reader.hpp"
-#include "counterflex/toolpath/toolpath.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"
@@ -91,8 +91,25 @@ bool controls_orientation(const Mechanism& mechanism) {
   return mechanism.controlled.empty();  // then all components are followed
 }
 
-/// The box of the feed moves of the program, in the machine frame. Puts external axes of the machine where
-/// the program has them.
+void add_to_box(const Extent& extent, MapBox& box) {
+  box.least = box.least.cwiseMin(extent.least);
+  box.most = box.most.cwiseMax(extent.most);
+}
+
+/// The feed moves of a window, and its holes from the height at which the feed begins to the bottom.
+void add_to_box(const Program& window, const Toolpath& path, MapBox& box) {
+  for (const Segment& segment : path.segments)
+    if (segment.cutting) add_to_box(extent_of(segment.wanted), box);
+  for (const Move& move : window.moves) {
+    const auto hole_mm = hole_of_cycle(move);
+    if (!hole_mm) continue;
+    const Pose X_MW = wanted_frame(path.frames[move.frame]);
+    add_to_box(extent_of(Curve{X_MW * (hole_mm->start * mm), X_MW * (hole_mm->end * mm)}), box);
+  }
+}
+
+/// The box of the feed moves and holes of the program, in the machine frame. Puts external axes of the
+/// machine where the program has them.
 MapBox place_in_machine(const Options& options, MachineInput& input, Console& console) {
   const ToolLengths lengths = read_tool_lengths(options, &input.machine);
   take_lengths(lengths, input.machine);
@@ -108,19 +125,13 @@ MapBox place_in_machine(const Options& options, MachineInput& input, Console& co
   for (ProgramReader reader(file.bytes, program.file, read); reader.next();) {
     const Toolpath path = build_toolpath(reader.window(), work.frames, end);
     end = path.end;
-    for (const Segment& segment : path.segments) {
-      if (!segment.cutting) continue;
-      for (const Vector3& p : points_along(segment.wanted)) {
-        box.least = box.least.cwiseMin(p);
-        box.most = box.most.cwiseMax(p);
-      }
-    }
+    add_to_box(reader.window(), path, box);
   }
   file.bytes.refuse_change();  // it was read more than once
   if (!box.least.allFinite())
     throw InputError(ErrorKind::program_text, {program.file},
-                     "the program has no feed move with a known place, so it has no box; leave it out, or "
-                     "give another program");
+                     "the program has no feed move with a known place, and no such hole, so it has no box; "
+                     "leave it out, or give another program");
   return box;
 }
 
