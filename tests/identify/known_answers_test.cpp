@@ -1,5 +1,6 @@
 /// Machines whose answer is known: a delta whose plate is touched, and the Orthoglide of the paper.
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <array>
@@ -94,6 +95,64 @@ TEST_CASE("a delta is found from seven touches of its plate") {
       CHECK(std::abs(parameter.value - (true_radius - file_radius)) < 1e-4 * mm);
       CHECK(parameter.is_identified);
     }
+    CHECK(found.outlier_count == 0);
+  }
+}
+
+namespace {
+
+Machine new_mill() {
+  return read_machine(machine_file(MachineFacts{}), "mill.toml");
+}
+
+/// The value that is found for a parameter.
+double found_value(const Identification& found, const std::string& name) {
+  for (const IdentifiedParameter& parameter : found.parameters)
+    if (parameter.name == name) return parameter.value;
+  return std::nan("");
+}
+
+/// Three pushes at each of four places on a mill with these compliances (m/N).
+std::string pushes_on_mill(const Vector3& compliance) {
+  std::string text = "kind,X_mm,Y_mm,Z_mm,fx_N,fy_N,fz_N,gx,gy,gz,reading_um,sigma_um\n";
+  for (const char* place : {"100,100,-100", "500,100,-300", "100,300,-300", "500,300,-100"})
+    for (int k = 0; k < 3; ++k) {
+      const Vector3 g = Vector3::Unit(k), F = 400 * g;
+      text += fmt::format("static_push,{},{},{},{},{},{},{},{:.3f},2\n", place, F.x(), F.y(), F.z(), g.x(),
+                          g.y(), g.z(), 400 * compliance[k] / um);
+    }
+  return text;
+}
+
+}  // namespace
+
+TEST_CASE("a squareness far from what is known before is the mean of both, by their deviations") {
+  const Machine mill = new_mill();
+  for (const double measured : {10.0, 80.0, 150.0, 1000.0}) {
+    CAPTURE(measured);
+    Measurements all;
+    read_measurements(fmt::format("kind,axes,squareness_um_per_m,sigma_squareness_um_per_m\n"
+                                  "squareness,XY,{},3\n",
+                                  measured),
+                      "s.csv", mill, all);
+    const Identification found = identify(mill, all, of_all_sets());
+    const double expected = measured * 50 * 50 / (50 * 50 + 3 * 3);
+    CHECK(found_value(found, "XY.rz_deg") == doctest::Approx(expected * 1e-6).epsilon(1e-3));
+    CHECK(found.outlier_count == 0);
+  }
+}
+
+TEST_CASE("pushes that agree with each other are believed, however soft the machine is") {
+  const Machine mill = new_mill();
+  for (const double softer : {1.0, 4.0, 10.0, 100.0}) {
+    CAPTURE(softer);
+    const Vector3 compliance = softer * Vector3(1, 1.2, 0.7) / 30e6;
+    Measurements all;
+    read_measurements(pushes_on_mill(compliance), "p.csv", mill, all);
+    const Identification found = identify(mill, all, of_all_sets());
+    for (int k = 0; k < 3; ++k)
+      CHECK(found_value(found, fmt::format("{}.compliance_m_per_N", "XYZ"[k])) ==
+            doctest::Approx(compliance[k]).epsilon(0.02));
     CHECK(found.outlier_count == 0);
   }
 }

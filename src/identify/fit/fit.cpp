@@ -180,13 +180,15 @@ void shift(const FitProblem& problem, const std::vector<LinearRow>& rows, const 
 }
 
 /// Weights change many times where rows are linearised: that costs little. Sets those of the point's rows.
+/// They are those of residuals after a step: before it, rows that agree with each other are all far out if
+/// the machine is. The first step has the stated deviations.
 LinearFit fit_linear(const FitProblem& problem, int rounds_before, double damping, Point& at) {
   LinearFit result{{}, {}, {}, at.frames};
   for (const LinearRow& row : at.rows) result.residuals.push_back(row.at.r);
   Eigen::VectorXd last = Eigen::VectorXd::Zero(at.values.size());
   for (int round = 0; round < most_rounds; ++round) {
-    const bool is_redescending = rounds_before + round >= huber_rounds;
-    weigh(problem, result.residuals, is_redescending, at.rows);
+    const bool is_redescending = rounds_before + round > huber_rounds;
+    if (round > 0) weigh(problem, result.residuals, is_redescending, at.rows);
     result.step = bounded_step(problem, at, damping);
     shift(problem, at.rows, result.step, result.residuals);
     const double change = size_of(result.step.parameters - last, result.step.covariance);
