@@ -1,9 +1,26 @@
 #include "run/program_places.hpp"
 
+#include <numeric>
+
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
+namespace {
+
+/// The waypoints of a window, in which a hole weighs what the feed to its bottom does.
+std::vector<Waypoint> with_weights_of_holes(const Job& window, const std::vector<Waypoint>& waypoints) {
+  std::vector<Waypoint> weighed = waypoints;
+  for (Waypoint& w : weighed) {
+    if (!is_place_of_cycle(window.program, w)) continue;
+    if (const auto hole_mm = hole_of_cycle(window.program.moves[w.move])) w.weight = length(*hole_mm) * mm;
+  }
+  return weighed;
+}
+
+}  // namespace
 
 std::optional<Failure> find_program_places(const Options& options, Console& console,
                                            std::vector<ProgramPlace>& places) {
@@ -12,7 +29,11 @@ std::optional<Failure> find_program_places(const Options& options, Console& cons
   RunFiles files(OutputPaths{}, {});
   RunTally tally = tally_for(options, *run);
   Windows windows(*run, console);
-  if (auto failure = predict_windows(windows.jobs(), run->options.threads, windows.events(tally, files))) {
+  WindowEvents events = windows.events(tally, files);
+  events.solved = [&](const Job& window, const std::vector<Waypoint>& waypoints) {
+    run->load_places.add(window, with_weights_of_holes(window, waypoints));
+  };
+  if (auto failure = predict_windows(windows.jobs(), run->options.threads, events)) {
     print_failure(*run, failure, console);
     return failure;
   }
@@ -30,9 +51,11 @@ std::optional<Failure> find_program_places(const Options& options, Console& cons
       if (&model == at.model) tool = number;
     places.push_back({{shown_values(shown, at.at.rho), at.load.F, at.at.directions, {}, tool}, at.at.weight});
   }
-  if (places.empty())
+  const auto weigh = [](double sum, const ProgramPlace& place) { return sum + place.weight; };
+  if (!(std::accumulate(places.begin(), places.end(), 0.0, weigh) > 0))
     throw InputError(ErrorKind::program_text, {run->program.file},
-                     "the program has no feed move with a known place; give another program with --for");
+                     "the program has no feed move with a known place, and no hole with a known place and "
+                     "depth; give another program with --for");
   return std::nullopt;
 }
 

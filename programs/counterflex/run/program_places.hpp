@@ -8,8 +8,9 @@
 
 namespace counterflex::cli {
 
-/// Places of the feed moves of `options.program`, some hundred at most, with the force of the options there.
-/// A failure if one of them cannot be solved. Throws `InputError`.
+/// Places of the feed moves and of the holes of `options.program`, some hundred at most, with the force of
+/// the options there. A hole weighs as much as a feed move of its depth. A failure if one of them cannot be
+/// solved. Throws `InputError`, also if no place has a weight.
 std::optional<Failure> find_program_places(const Options& options, Console& console,
                                            std::vector<ProgramPlace>& places);
 
