@@ -78,6 +78,21 @@ std::string largest_rows(const Coupon& coupon, const std::vector<CouponPredictio
   return text;
 }
 
+/// The run of the coupon. The program that is written begins with a header: diagnostics name its lines, so
+/// the run is prepared in silence first, for the length of the header.
+std::unique_ptr<Run> prepare_coupon(const Options& options, const Coupon& coupon, Console& console) {
+  Console silent({.quiet = true});
+  const auto first = prepare_run(options, coupon.text, silent);
+  refuse_what_cannot_be_compensated(*first);
+  prepare_writing(options, *first);
+  const int header_lines = static_cast<int>(first->options.write.header.size());
+  const std::string& name = first->program.file;
+  console.name_lines(name, {name}, {1 - header_lines});
+  auto run = prepare_run(options, coupon.text, console);
+  prepare_writing(options, *run);
+  return run;
+}
+
 }  // namespace
 
 std::optional<ErrorKind> run_testcut(const Options& options, Console& console) {
@@ -86,12 +101,10 @@ std::optional<ErrorKind> run_testcut(const Options& options, Console& console) {
   Options run_options = options;
   run_options.program = *options.output;
   run_options.dialect = "linuxcnc";
-  const auto run = prepare_run(run_options, coupon.text, console);
-  refuse_what_cannot_be_compensated(*run);
+  const auto run = prepare_coupon(run_options, coupon, console);
   if (acts_at_platform(run->force_input.source))
     throw InputError(ErrorKind::machine_or_force, {},
                      "the forces act at the platform (at = platform); a coupon needs forces at the tip");
-  prepare_writing(run_options, *run);
   CutCoupon cut;
   if (const auto failure = cut_coupon(run_options, *run, coupon, console, cut))
     return print_failure(*run, failure, console);
