@@ -46,7 +46,7 @@ constexpr NumberRow other_rows[] = {
     {"/summary/sources/superposition/max_mm", sources_heading, "superposition: their sum"},
     {"/summary/sensitivity/force_plus_30/max_mm", other_force_heading, "force 30 % higher"},
     {"/summary/sensitivity/force_minus_30/max_mm", other_force_heading, "force 30 % lower"},
-    {"/summary/air/max_mm", other_force_heading, "no force (dry run, spring pass)"},
+    {"/summary/sensitivity/without_force/max_mm", other_force_heading, "no force (dry run, spring pass)"},
     {"/summary/path_mm", program_heading, "length of feed moves, in mm", "mm", 3},
     {"/summary/corrected_percent", program_heading, "of it corrected, in %", "%", 2},
     {"/summary/correction/max_mm", program_heading, "largest correction, in mm"},
