@@ -5,7 +5,6 @@
 #include <mutex>
 
 #include "counterflex/compensation/windows.hpp"
-#include "counterflex/files/text.hpp"
 #include "counterflex/program/size_limit.hpp"
 #include "run/guard.hpp"
 #include "run/proof.hpp"
@@ -135,7 +134,7 @@ std::optional<ErrorKind> compensate_run(const Options& options, Run& run, const 
   if (wants_proof(options)) proof.emplace(run.program.dialect);
   const std::optional<Failure> failure =
       compensate_all(run, tally, files, points, proof ? &*proof : nullptr, console);
-  run.facts.output = without_controls(paths.program);  // the report omits it if no program is written
+  run.facts.output = paths.program;  // the report omits it if no program is written
   if (!failure) finish_program(options, run, points, paths, files);
   if (!failure && proof) run.facts.proof = proof->facts(run);
   return report_end(

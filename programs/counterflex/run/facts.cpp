@@ -8,7 +8,6 @@
 
 #include "counterflex/files/file_reader.hpp"
 #include "counterflex/files/files.hpp"
-#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "process/version.hpp"
 #include "run/header/header.hpp"
@@ -61,7 +60,6 @@ RunFacts facts_of(const Options& options, const Run& run) {
     FileReader project(options.project_file);
     facts.inputs.push_back({"project", options.project_file, sha256(project)});
   }
-  for (InputFile& input : facts.inputs) input.path = without_controls(input.path);
   facts.min_block_ms = options.min_block_ms;
   facts.accept_partial = options.accept_partial;
   facts.options = {{"method", std::string(to_string(options.method))},

@@ -385,7 +385,7 @@ void add_hashes(const Options& options, RunReport& report, RunFiles& files) {
   if (report.error_kind) proof.reset();
   if (!proof || options.command == Command::verify) return;
   for (const FileHash& file : files.complete_program())
-    proof->written.push_back({"written", without_controls(file.path), file.sha256});
+    proof->written.push_back({"written", file.path, file.sha256});
 }
 
 }  // namespace

@@ -12,15 +12,11 @@ bool plain(const Json& value) {
   return !value.is_structured() || value.empty();
 }
 
-std::string text_of(const Json& value) {
-  return value.dump(-1, ' ', false, Json::error_handler_t::replace);
-}
-
 void write_list(const Json& list, std::string& out) {
   const char* separator = "";
   out += '[';
   for (const Json& value : list) {
-    out.append(separator).append(text_of(value));
+    out.append(separator).append(on_one_line(value));
     separator = ", ";
   }
   out += ']';
@@ -28,7 +24,7 @@ void write_list(const Json& list, std::string& out) {
 
 void write(const Json& value, std::size_t indent, std::string& out) {
   if (plain(value)) {
-    out += text_of(value);
+    out += on_one_line(value);
     return;
   }
   if (value.is_array() && std::all_of(value.begin(), value.end(), plain)) {
@@ -39,7 +35,7 @@ void write(const Json& value, std::size_t indent, std::string& out) {
   const char* separator = "\n";
   for (const auto& item : value.items()) {
     out.append(separator).append(indent + 2, ' ');
-    if (value.is_object()) out.append(text_of(item.key())).append(": ");
+    if (value.is_object()) out.append(on_one_line(item.key())).append(": ");
     write(item.value(), indent + 2, out);
     separator = ",\n";
   }
@@ -52,6 +48,13 @@ void write(const Json& value, std::size_t indent, std::string& out) {
 Json significant(double value, int digits) {
   if (!std::isfinite(value)) return nullptr;
   return *read_number(fmt::format("{:.{}e}", value, digits - 1));
+}
+
+std::string on_one_line(const Json& document) {
+  constexpr bool only_ascii = true;
+  std::string text = document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  if (without_controls(text) == text) return text;
+  return document.dump(-1, ' ', only_ascii, Json::error_handler_t::replace);
 }
 
 std::string dump(const Json& document) {

@@ -26,8 +26,11 @@ Json numbers(const Vector& values, int decimals) {
   return list;
 }
 
-/// The document indented by two spaces, lists of plain values on one line, with a newline at the end. Bytes
-/// that are not UTF-8 become replacement characters.
+/// The document on one line. Bytes that are not UTF-8 become replacement characters. Control characters are
+/// escaped, so that a terminal may show the text: strings keep them.
+std::string on_one_line(const Json& document);
+
+/// The same, indented by two spaces, lists of plain values on one line, with a newline at the end.
 std::string dump(const Json& document);
 
 }  // namespace counterflex

@@ -30,7 +30,7 @@ Json absolute_path(const std::string& path) {
 
 std::string source_json(FileReader& program, const RunReport& report) {
   const Json document = {{"text", text_of(program)}, {"output", absolute_path(report.facts.output)}};
-  return document.dump(-1, ' ', false, Json::error_handler_t::replace);
+  return on_one_line(document);
 }
 
 }  // namespace counterflex

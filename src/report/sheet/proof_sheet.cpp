@@ -66,7 +66,7 @@ std::string three(const Vector3& values, int decimals) {
 /// Without its folders: the hash names the file.
 std::string file_shown(const std::string& path) {
   if (path == "-") return "standard input or output";
-  return shortened(path.substr(path.find_last_of('/') + 1), most_of_path);
+  return shortened(without_controls(path.substr(path.find_last_of('/') + 1)), most_of_path);
 }
 
 const InputFile* input_of(const RunReport& report, std::string_view role) {
