@@ -5,15 +5,6 @@
 #include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
-namespace {
-
-/// None where the waypoint is the bottom.
-std::optional<Curve> hole_below(const Move& move, const Waypoint& w) {
-  const bool is_call = move.cycle ? w.segment != no_segment : move.makes_hole;
-  return is_call && !w.cutting && w.fraction == 1 ? hole_of_cycle(move) : std::nullopt;
-}
-
-}  // namespace
 
 std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, double u_before) {
   std::vector<TipPosition> commands;
@@ -27,7 +18,8 @@ std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, d
     for (const double u : outermost_fractions(wanted))
       if (u > u_before && u < w.fraction) add(original_command(job, move.frame, point_at(wanted, u)));
   }
-  if (const auto hole_mm = hole_below(move, w)) add(position_of_words(job, move, hole_mm->end));
+  if (!w.cutting && w.fraction == 1)
+    for (const Vector3& p_mm : places_of_cycle(move)) add(position_of_words(job, move, p_mm));
   return commands;
 }
 

@@ -165,6 +165,13 @@ std::optional<Curve> hole_of_cycle(const Move& move) {
   return std::isfinite(hole.end.z()) ? std::optional(hole) : std::nullopt;
 }
 
+std::vector<Vector3> places_of_cycle(const Move& move) {
+  const std::optional<Curve> hole = hole_of_cycle(move);
+  if (!hole) return {};
+  const double retract_mm = move.cycle ? move.cycle->retract_mm : move.called->heights_mm[1];
+  return {hole->end, {hole->end.x(), hole->end.y(), retract_mm}};
+}
+
 bool goes_to_unknown_places(const Move& move) {
   const bool drills = move.cycle ? move.cycle->repeats > 0 : move.makes_hole;
   return any_axis(move.fixed) || move.mills_at_end || (drills && !hole_of_cycle(move));

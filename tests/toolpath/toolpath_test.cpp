@@ -182,6 +182,7 @@ TEST_CASE("a hole is known from where its feed begins to its bottom, if place an
     REQUIRE(hole);
     CHECK(hole->start == Vector3(10, 20, 2));
     CHECK(hole->end == Vector3(10, 20, -30));
+    CHECK(places_of_cycle(move) == std::vector{Vector3(10, 20, -30), Vector3(10, 20, 2)});
     move.cycle->repeats = 0;
     CHECK_FALSE(hole_of_cycle(move));
     CHECK_FALSE(goes_to_unknown_places(move));
@@ -193,6 +194,7 @@ TEST_CASE("a hole is known from where its feed begins to its bottom, if place an
     REQUIRE(hole);
     CHECK(hole->start == Vector3(10, 20, 0));
     CHECK(hole->end == Vector3(10, 20, -30));
+    CHECK(places_of_cycle(move) == std::vector{Vector3(10, 20, -30), Vector3(10, 20, 5)});
     move.called->heights_mm[2] = std::nan("");
     CHECK_FALSE(hole_of_cycle(move));
     CHECK(goes_to_unknown_places(move));

@@ -7,9 +7,9 @@
 
 namespace counterflex {
 
-/// The outermost places of an arc between fraction `u_before` of the move and the waypoint, and the bottom of
-/// the hole that a cycle drills from there. They are shifted as the waypoint is. Depths that are not known,
-/// and arcs along which the program turns the tool, give none.
+/// The outermost places of an arc between fraction `u_before` of the move and the waypoint, and the bottom
+/// and the retract plane of a cycle that is called there. They are shifted as the waypoint is. Depths that
+/// are not known, and arcs along which the program turns the tool, give none.
 std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, double u_before);
 
 /// The actuators of the nominal machine there (m, rad); empty if it has none.

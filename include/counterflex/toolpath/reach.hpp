@@ -22,6 +22,9 @@ Extent extent_of(const Curve& curve);
 /// bottom, in program coordinates (mm). Empty: it drills none, or place or depth are not known.
 std::optional<Curve> hole_of_cycle(const Move& move);
 
+/// Places to which that cycle takes the tool: the bottom of its hole, and its retract plane above it (mm).
+std::vector<Vector3> places_of_cycle(const Move& move);
+
 /// Whether the tool goes to places that are not known: a position or a depth is not a plain number, or a
 /// cycle mills around the end of the move.
 bool goes_to_unknown_places(const Move& move);

@@ -43,9 +43,9 @@ void add_move(const Program& program, const Move& move, MoveFacts& facts) {
     facts.least[i] = std::min(facts.least[i], extent.least[i]);
     facts.most[i] = std::max(facts.most[i], extent.most[i]);
   }
-  if (const auto hole_mm = hole_of_cycle(move)) {
-    facts.least.z() = std::min(facts.least.z(), hole_mm->end.z());
-    facts.most.z() = std::max(facts.most.z(), hole_mm->end.z());
+  for (const Vector3& p_mm : places_of_cycle(move)) {
+    facts.least.z() = std::min(facts.least.z(), p_mm.z());
+    facts.most.z() = std::max(facts.most.z(), p_mm.z());
   }
   add_once(facts.offsets, program.frames[move.frame].work_offset);
   add_once(facts.units, move.unit);
@@ -187,7 +187,8 @@ class PlacesReached {
   PlacesReached(const Model& base, const ToolModels& tools, const std::vector<WorkFrame>& frames)
       : base_(base), tools_(tools), frames_(frames), nominal_(base) {}
 
-  /// Why a place of the window is not reached: an end of a line, a place on an arc, the bottom of a hole.
+  /// Why a place of the window is not reached: an end of a line, a place on an arc, the bottom or the
+  /// retract plane of a cycle.
   std::optional<Failure> add(const Program& window) {
     const std::vector<Segment> segments = build_toolpath(window, frames_).segments;
     std::size_t next = 0;
@@ -197,8 +198,8 @@ class PlacesReached {
       const bool has_segment = next < segments.size() && segments[next].move == m;
       if (has_segment)
         if (auto failure = go_along(segments[next++], window, move)) return failure;
-      if (const auto hole_mm = hole_of_cycle(move))
-        if (auto failure = go_to(wanted_frame(frames_[move.frame]) * (hole_mm->end * mm), {}, window, move))
+      for (const Vector3& p_mm : places_of_cycle(move))
+        if (auto failure = go_to(wanted_frame(frames_[move.frame]) * (p_mm * mm), {}, window, move))
           return failure;
     }
     return std::nullopt;
