@@ -91,9 +91,9 @@ std::string guard_number(double value) {
   return text == "-0" ? "0" : text;
 }
 
-GuardedValue guarded_value(double mm, double window_mm, LengthUnit unit) {
+GuardedValue guarded_value(double value_mm, double window_mm, LengthUnit unit) {
   constexpr double digits = 1e6, rounding = 1e-6;
-  const double value = mm / mm_per(unit);
+  const double value = value_mm / mm_per(unit);
   const double window = std::floor(window_mm / mm_per(unit) * digits + rounding) / digits;
   const std::string_view name = unit == LengthUnit::inches ? "INCH" : "MM";
   return {guard_number(value), guard_number(window),

@@ -19,7 +19,7 @@ namespace {
 
 constexpr int targets = 9000;
 
-const std::string program =
+const std::string long_program =
     "&ACCESS RVP\n"
     "DEF job( )\n"
     "INT n\n"
@@ -69,7 +69,7 @@ bool follows(const std::string& src, const std::string& dat = list_text()) {
   return join_files_by_motion(Files(src, dat).paths).has_value();
 }
 
-std::string with(const std::string& old, const std::string& by, std::string text = program) {
+std::string with(const std::string& old, const std::string& by, std::string text = long_program) {
   const std::size_t at = text.find(old);
   REQUIRE(at != std::string::npos);
   return text.replace(at, old.size(), by);
@@ -101,7 +101,7 @@ std::array<std::string, 2> files_of(const std::string& text) {
 
 TEST_CASE("a data list behind its loop gives the moves and lines of the list behind the program") {
   for (const std::string end : {"ENDDAT\n", "ENDDAT", "ENDDAT\n\n;end\n"}) {
-    const Files files(program, list_text(end));
+    const Files files(long_program, list_text(end));
     const Program whole = read_program(all_of(join_files(files.paths)), "job.src", {});
     auto bytes = join_files_by_motion(files.paths);
     REQUIRE(bytes);
@@ -132,7 +132,7 @@ TEST_CASE("a data list behind its loop gives the moves and lines of the list beh
 }
 
 TEST_CASE("targets inserted into a list behind its loop give the files of the list behind the program") {
-  const Files files(program, list_text());
+  const Files files(long_program, list_text());
   const Program whole = read_program(all_of(join_files(files.paths)), "job.src", {});
   const WriteOptions options{.header = {"COUNTERFLEX 1"}};
   const auto expected = files_of(rewrite(whole, edits_of(whole, 0), options).text);
@@ -164,26 +164,26 @@ TEST_CASE("targets inserted into a list behind its loop give the files of the li
 }
 
 TEST_CASE("a list follows its loop only if no line far away matters") {
-  CHECK(follows(program));
+  CHECK(follows(long_program));
   CHECK(!follows(with("HOMING()", "PTP XHOME")));
   CHECK(!follows(with("HOMING()", "LIN POINTS[3].at")));
   CHECK(!follows(with("INT n", "INT n\nDECL FRAME P1={X 1,Y 2,Z 3,A 0,B 0,C 0}")));
   CHECK(!follows(with("HOMING()", "FOR n = 1 TO 3\nLIN OTHERS[n]\nENDFOR")));
-  CHECK(!follows(program + "DEF HOMING()\nEND\n"));
+  CHECK(!follows(long_program + "DEF HOMING()\nEND\n"));
   CHECK(!follows(with("  LIN", "  POINTS[n].at.A = 3\n  LIN")));
   CHECK(!follows(with("TO 9000", "TO 8999")));
   CHECK(!follows(with("FOR n = 1", "FOR n = 2")));
-  CHECK(!follows(program + std::string(200'000, ' ')));
-  CHECK(!follows(program, with("[ 9000 ]", "[ 9000 ]\nOTHERS[1]={X 1}", list_text())));
-  CHECK(!follows(program, with("DECL GLOBAL target POINTS[ 9000 ]", ";", list_text())));
-  CHECK(!follows(program, with("POINTS[4     ]", "POINTS[5     ]", list_text())));
-  Files three(program, list_text());
+  CHECK(!follows(long_program + std::string(200'000, ' ')));
+  CHECK(!follows(long_program, with("[ 9000 ]", "[ 9000 ]\nOTHERS[1]={X 1}", list_text())));
+  CHECK(!follows(long_program, with("DECL GLOBAL target POINTS[ 9000 ]", ";", list_text())));
+  CHECK(!follows(long_program, with("POINTS[4     ]", "POINTS[5     ]", list_text())));
+  Files three(long_program, list_text());
   three.paths.push_back(three.paths[1]);
   CHECK(!join_files_by_motion(three.paths));
 }
 
 TEST_CASE("an array that is declared too small is refused in a list behind its loop, too") {
-  const Files files(program, with("[ 9000 ]", "[ 8999 ]", list_text()));
+  const Files files(long_program, with("[ 9000 ]", "[ 8999 ]", list_text()));
   auto bytes = join_files_by_motion(files.paths);
   REQUIRE(bytes);
   ProgramReader reader(*bytes, "job.src", {});
