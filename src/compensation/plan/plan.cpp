@@ -80,9 +80,14 @@ void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector
   task.end = requests.intervals.back().at[4];
 }
 
+// With a blend a rapid starts where the cut ended.
+bool starts_anywhere(const Job& job, const Segment& segment) {
+  return !segment.cutting && job.options.blend > 0;
+}
+
 void plan_as_programmed(const Job& job, const Segment& segment, const Correction& c,
                         PlannedSegment& planned) {
-  planned.starts_anywhere = !segment.cutting && job.options.blend > 0;
+  planned.starts_anywhere = starts_anywhere(job, segment);
   planned.start = command_at(job, segment, 0, c);
   if (segment.wanted.arc) planned.arc.emplace_back().add({{0, c}, {1, c}});
   planned.knots = {{command_at(job, segment, 1, c), 1}};
@@ -102,8 +107,8 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index, PlannedS
     task.fade = fade_of(job, segment);
     if (task.fade.from && task.fade.to)
       return plan_as_programmed(job, segment, task.fade.programmed, planned);
-    // With a blend a rapid starts where the cut ended.
-    if (segment.cutting || job.options.blend == 0) task.start = corrections.ask(index, 0, Side::after);
+    if (segment.cutting || job.options.blend == 0 || segment.wanted.arc)
+      task.start = corrections.ask(index, 0, Side::after);
     if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
     const Vector6 F1 = corrections.force_at(index, 1, Side::before);
     task.is_sampled = segment.cutting && !bends_little(job, corrections, task, F1);
@@ -158,12 +163,16 @@ std::optional<Failure> finish(const Job& job, Corrections& corrections, const Pl
     planned.group.push_back(corrections.node(u, task.group[k]));
   }
   if (count > 0) return std::nullopt;
-  planned.starts_anywhere = task.start == no_answer;
+  planned.starts_anywhere = starts_anywhere(job, segment);
   planned.start.target = segment.wanted.start;
   if (task.start != no_answer)
     planned.start = command_at(job, segment, 0, task.fade(0, corrections.correction(task.start)));
   if (task.is_sampled) return finish_cut(job, corrections, task, interval, planned);
-  planned.knots = {{command_at(job, segment, 1, task.fade(1, corrections.correction(task.end))), 1}};
+  const Correction end = task.fade(1, corrections.correction(task.end));
+  planned.knots = {{command_at(job, segment, 1, end), 1}};
+  if (!segment.wanted.arc) return std::nullopt;
+  const Correction start = task.fade(0, corrections.correction(task.start));
+  planned.arc.emplace_back().add({{0, start}, {1, end}});  // a rapid
   return std::nullopt;
 }
 
