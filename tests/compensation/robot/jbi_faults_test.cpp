@@ -21,6 +21,10 @@ Order jbi_order(const std::string& text) {
   return order;
 }
 
+std::string exchanged(const std::string& text, const std::string& one, const std::string& other) {
+  return replaced(replaced(replaced(text, one, "?\n"), other, one), "?\n", other);
+}
+
 std::string failure_of_job(const Shop& shop, const std::string& text) {
   try {
     const auto failure = verify(shop.job(), read_program(text, "corrected", shop.read), false).failure;
@@ -73,10 +77,7 @@ TEST_CASE("targets in pulses must not be exchanged") {
   const Shop shop(jbi_order(source));
   const std::string text = compensated(shop).text;
   REQUIRE(failure_of_job(shop, text) == "");
-  std::string changed = replaced(text, one, "=?\n");
-  changed = replaced(changed, other, one);
-  changed = replaced(changed, "=?\n", other);
-  CHECK(failure_of_job(shop, changed) != "");
+  CHECK(failure_of_job(shop, exchanged(text, one, other)) != "");
 }
 
 TEST_CASE("configurations of two positions must not be exchanged") {
@@ -86,10 +87,7 @@ TEST_CASE("configurations of two positions must not be exchanged") {
   const Shop shop(jbi_order(source));
   const std::string text = compensated(shop).text;
   REQUIRE(failure_of_job(shop, text) == "");
-  std::string changed = replaced(text, one, "///RCONF ?\n");
-  changed = replaced(changed, other, one);
-  changed = replaced(changed, "///RCONF ?\n", other);
-  CHECK(failure_of_job(shop, changed) != "");
+  CHECK(failure_of_job(shop, exchanged(text, one, other)) != "");
   CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0", "RCONF 1,1,0")) != "");
   CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0,0", "RCONF 0,0,1,0")) != "");
 }
