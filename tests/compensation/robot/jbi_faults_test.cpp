@@ -69,7 +69,7 @@ TEST_CASE("the point inside of a circle is at the height of the corrected circle
   }
 }
 
-TEST_CASE("targets in pulses must not be exchanged") {
+TEST_CASE("values of targets in pulses must not be exchanged") {
   const std::string one = "=1000,2000,3000,0,-4000,0\n", other = "=1000,9000,3000,0,-4000,0\n";
   std::string source = replaced(jbi_text(), "NPOS 8,8", "NPOS 10,8");
   source = replaced(source, "BC00000=", "C00008" + one + "C00009" + other + "BC00000=");

@@ -21,18 +21,10 @@ std::size_t letters_of_position(std::string_view word) {
   return 0;
 }
 
-// What the position data has behind "C00012=". Empty where it has no such position.
-std::string_view values_of(std::string_view job, std::string_view name) {
-  const std::size_t line = job.find("\n" + std::string(name) + '=');
-  if (line == std::string_view::npos) return {};
-  const std::size_t begin = line + name.size() + 2;
-  return job.substr(begin, job.find_first_of("\r\n", begin) - begin);
-}
-
 // '@' for the target, which may be another position in the corrected program. Names of base axes and
 // stations, and of targets of moves that are not followed, lose their numbers, which insertion changes.
-// Moves that are not followed have the values of their positions instead. CR loses its number, a zone.
-std::string step_kept_words(std::string_view job, std::string_view statement, bool is_followed) {
+// CR loses its number, a zone.
+std::string step_kept_words(std::string_view statement, bool is_followed) {
   std::string text;
   for (std::size_t at = 0; at < statement.size();) {
     const std::size_t end = std::min(statement.find_first_of(" \t", at), statement.size());
@@ -45,7 +37,7 @@ std::string step_kept_words(std::string_view job, std::string_view statement, bo
     else if (is_target)
       text += '@';
     else if (letters > 0 && word[0] != 'P')
-      text.append(word.substr(0, letters)).append("@").append(is_followed ? "" : values_of(job, word));
+      text.append(word.substr(0, letters)).append("@");
     else
       text.append(word);
   }
@@ -55,7 +47,7 @@ std::string step_kept_words(std::string_view job, std::string_view statement, bo
 }  // namespace
 
 std::string jbi_kept_words(const Program& program, const Move& move) {
-  return step_kept_words(program.text, statement_without_comment(program, move, jbi_comment),
+  return step_kept_words(statement_without_comment(program, move, jbi_comment),
                          !target_numbers(move).empty());
 }
 
