@@ -80,7 +80,10 @@ void RunTally::add_to_travel(const Waypoint& w, const Job& window, double u_befo
   const Model& model = model_of(window, w.move);
   if (model.mechanism.controlled.empty()) return;
   for (const TipPosition& command : outermost_commands(window, w, u_before))
-    if (const auto rho = actuators_at(command)) travel_.add(model.mechanism, *rho, w.line);
+    if (const auto rho = actuators_at(command))
+      travel_.add(model.mechanism, *rho, w.line);
+    else
+      travel_.skip(w.line);
   travel_.add(model.mechanism, w.rho, w.line);
 }
 
