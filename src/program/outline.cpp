@@ -166,8 +166,8 @@ bool is_numbered(std::string_view line) {
   return o != std::string_view::npos && is_number_at(line, o);
 }
 
-Outline outline_of(std::string_view text, const Dialect& dialect) {
-  OutlineScan scan(dialect);
+Outline outline_of(std::string_view text, const Dialect& dialect, const CallNames& harmless) {
+  OutlineScan scan(dialect, harmless);
   scan.add(text);
   return scan.finish();
 }

@@ -32,7 +32,9 @@ struct Outline {
 /// programs.
 class OutlineScan {
  public:
-  explicit OutlineScan(const Dialect& dialect) : dialect_(dialect) {}
+  /// `harmless` as in ReadOptions.
+  OutlineScan(const Dialect& dialect, const CallNames& harmless)
+      : dialect_(dialect), rapid_(harmless), krl_(harmless) {}
   /// Whether programs in the dialect can have such properties.
   bool may_find() const;
   void add(std::string_view blocks);
@@ -51,7 +53,7 @@ class OutlineScan {
   std::size_t open_ = 0;  ///< number of programs at the end of the list that have not ended yet
 };
 
-Outline outline_of(std::string_view text, const Dialect& dialect);
+Outline outline_of(std::string_view text, const Dialect& dialect, const CallNames& harmless = {});
 
 /// Whether a line begins with an O-number.
 bool is_numbered(std::string_view line);

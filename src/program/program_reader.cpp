@@ -91,7 +91,7 @@ Overall look_through(FileReader& bytes, const std::string& file, const ReadOptio
   bytes.rewind();
   const Dialect& dialect = dialect_of(bytes, file, options);
   bytes.rewind();
-  OutlineScan scan(dialect);
+  OutlineScan scan(dialect, options.harmless_calls);
   if (!scan.may_find()) return {&dialect, {}};
   std::string text;
   while (bytes.append(text, bytes_at_once) > 0) {
@@ -289,7 +289,8 @@ TextReader::TextReader(const ProgramReader& original) {
 
 TextReader::TextReader(const Program& original, const ReadOptions& options) {
   const Dialect& dialect = *find_dialect(original.dialect);
-  state_.reset(new State{make_reader(original.file, options, dialect, outline_of(original.text, dialect))});
+  state_.reset(new State{make_reader(original.file, options, dialect,
+                                     outline_of(original.text, dialect, options.harmless_calls))});
 }
 
 TextReader::~TextReader() = default;

@@ -22,7 +22,7 @@ Program read_program(std::string text, const std::string& file, const ReadOption
   if (options.expand_subprograms)
     expansion =
         dialect.name == klartext_name ? expand_klartext(text, file) : expand_subprograms(text, file, dialect);
-  Outline outline = outline_of(text, dialect);
+  Outline outline = outline_of(text, dialect, options.harmless_calls);
   // The program itself never reaches a GOTO that remains after the execution of jumps.
   if (expansion.in_order) outline.jumps = false;
   const auto reader = make_reader(file, options, dialect, std::move(outline));

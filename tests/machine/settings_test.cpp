@@ -78,6 +78,10 @@ TEST_CASE("the control's settings are kept, axes in upper case, and no axis diff
   CHECK(control.dialect == "fanuc");
   CHECK(control.units == "inch");
   CHECK(control.tool_change_moves == std::vector<std::string>{"Z"});
+  CHECK(control.harmless_calls.empty());
+  const ControlSettings calls =
+      machine_with("[program]\nharmless_calls = [\"Spindle on\", 'TNC:\\on.h']\n").control;
+  CHECK(calls.harmless_calls == std::set<std::string, std::less<>>{"SPINDLEON", "TNC:\\ON.H"});
   const ControlSettings none = machine_with("[program]\ntool_change_moves = []\n").control;
   REQUIRE(none.tool_change_moves.has_value());
   CHECK(none.tool_change_moves->empty());

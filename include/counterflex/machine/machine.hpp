@@ -9,6 +9,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <string_view>
 #include <variant>
@@ -226,6 +227,8 @@ struct ControlSettings {
   std::string units;                                          ///< "mm", "inch" or empty: not known
   std::optional<std::vector<std::string>> tool_change_moves;  ///< axes; none: as the dialect has it
   bool absolute_centres = false;                              ///< of arcs, until a program changes it
+  /// Called programs that neither move the machine nor change its state; in upper case without blanks.
+  std::set<std::string, std::less<>> harmless_calls{};
 };
 
 /// The link lengths with which the control computes the joint values of a target.

@@ -5,6 +5,7 @@
 #include <functional>
 #include <map>
 #include <optional>
+#include <set>
 #include <string>
 #include <vector>
 
@@ -25,6 +26,8 @@ struct JointPlace {
 /// knows no error of the machine. `tool` is as in Move. Empty: not known.
 using JointKinematics =
     std::function<std::optional<Pose>(const JointPlace&, std::int32_t tool, const ProgramFrame& frame)>;
+
+using CallNames = std::set<std::string, std::less<>>;  ///< in upper case without blanks
 
 struct ReadOptions {
   /// auto, linuxcnc, grbl, fanuc, haas, mach3, siemens, heidenhain, kuka, abb, ur, apt, fanuc_tp, yaskawa.
@@ -51,6 +54,9 @@ struct ReadOptions {
   SpindleAxis spindle_axis = SpindleAxis::z;
   /// Of the robot: where the tool is at targets that give joint values. Without it that is not known.
   JointKinematics kinematics{};
+  /// Programs that calls name and that are not in the text: they neither move the machine nor change a state
+  /// that is read. "O9001" for numbers.
+  CallNames harmless_calls{};
   /// Replaces calls by M98, CALL LBL and O-words with plain numbers by the bodies.
   bool expand_subprograms = false;
 };

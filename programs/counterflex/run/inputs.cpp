@@ -183,6 +183,7 @@ ReadOptions read_options(const Options& options, const Machine* machine, const T
   read.evaluate = options.evaluate;
   read.expand_subprograms = options.expand_subprograms;
   read.tool_lengths_mm = tools.mm;
+  if (machine != nullptr) read.harmless_calls = machine->control.harmless_calls;
   if (machine != nullptr && machine->control.tool_change_moves) {
     read.tool_change_moves.emplace();
     for (const std::string& axis : *machine->control.tool_change_moves)

@@ -178,6 +178,9 @@ void describe_settings(const Machine& machine, std::string& text) {
   line("program", fmt::format("dialect {}, units {}, a tool change moves {}", machine.control.dialect,
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
+  if (!machine.control.harmless_calls.empty())
+    line("calls", fmt::format("{} neither move the machine nor change its state; stated by the file",
+                              fmt::join(machine.control.harmless_calls, ", ")));
   if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
   if (!machine.already_corrects.empty()) line("corrects", corrects_phrase(machine));
   if (machine.joint_values_as_shown)

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <cctype>
 #include <chrono>
 
 #include "counterflex/files/text.hpp"
@@ -62,6 +63,24 @@ std::vector<std::string> read_tool_change_moves(const toml::node& node, const So
     axes.push_back(axis);
   }
   return axes;
+}
+
+std::set<std::string, std::less<>> read_harmless_calls(const toml::node& node, const Source& source) {
+  std::set<std::string, std::less<>> names;
+  for (const toml::node& entry : as_array(node, "harmless_calls", source)) {
+    const std::string text = as_text(entry, "a name of harmless_calls", source);
+    std::string name;
+    for (const char c : text)
+      if (c != ' ') name += static_cast<char>(std::toupper(static_cast<unsigned char>(c)));
+    if (name.empty() || name.find_first_of("()\"'") != std::string::npos)
+      source.fail(entry,
+                  fmt::format("a name of harmless_calls is \"{}\"; write the name of a program without "
+                              "brackets and quotes: \"SPINDLE_ON\", \"O9001\"",
+                              text));
+    if (!names.insert(std::move(name)).second)
+      source.fail(entry, fmt::format("harmless_calls names \"{}\" twice", text));
+  }
+  return names;
 }
 
 /// A day, as a date of TOML or in quotes: "2026-11-20".
@@ -188,13 +207,16 @@ void read_program(const toml::table& document, const Source& source, Machine& ma
   const toml::node* node = document.get("program");
   if (node == nullptr) return;
   const toml::table& table = as_table(*node, "program", source);
-  check_keys(table, {"dialect", "units", "tool_change_moves", "arc_centres"}, "[program]", source);
+  check_keys(table, {"dialect", "units", "tool_change_moves", "arc_centres", "harmless_calls"}, "[program]",
+             source);
   if (const toml::node* dialect = table.get("dialect"))
     machine.control.dialect = as_choice(*dialect, "dialect", known_dialects(), source);
   if (const toml::node* units = table.get("units"))
     machine.control.units = as_choice(*units, "units", {"mm", "inch"}, source);
   if (const toml::node* moves = table.get("tool_change_moves"))
     machine.control.tool_change_moves = read_tool_change_moves(*moves, source);
+  if (const toml::node* calls = table.get("harmless_calls"))
+    machine.control.harmless_calls = read_harmless_calls(*calls, source);
   if (const toml::node* centres = table.get("arc_centres"))
     machine.control.absolute_centres =
         std::string(as_choice(*centres, "arc_centres", {"incremental", "absolute"}, source)) == "absolute";

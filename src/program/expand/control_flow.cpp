@@ -169,12 +169,6 @@ ControlLine flow_line_of(const Block& block) {
   return line;
 }
 
-std::string upper_case(std::string_view text) {
-  std::string result(text);
-  std::transform(result.begin(), result.end(), result.begin(), upper);
-  return result;
-}
-
 std::string_view trimmed_text(std::string_view text) {
   const std::size_t begin = std::min(text.find_first_not_of(" \t\r"), text.size());
   return text.substr(begin, text.find_last_not_of(" \t\r") + 1 - begin);

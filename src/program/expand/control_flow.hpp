@@ -94,7 +94,6 @@ CountedLoop read_counted_loop(const ControlLine& line);
 /// A line of flow at the begin of `block`.
 ControlLine flow_line_of(const Block& block);
 
-std::string upper_case(std::string_view text);
 /// Without blanks at its ends.
 std::string_view trimmed_text(std::string_view text);
 

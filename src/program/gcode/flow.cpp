@@ -97,10 +97,15 @@ void note_differences(Reading& r) {
     r.body.left = r.state;
 }
 
-void call(const Block& block, Reading& r) {
+/// "O100" and "SPINDLE_ON" of the names "100" and "<spindle_on>" of O-words.
+std::string called_program(const std::string& name) {
+  return name.starts_with('<') ? name.substr(1, name.find('>') - 1) : "O" + name;
+}
+
+void call(const Block& block, Reading& r, const std::string& program) {
   ++r.program.block_count;
   r.sorted = {};
-  read_call(block, r);
+  read_call(block, r, program);
 }
 
 struct FlowLine {
@@ -123,7 +128,7 @@ bool closes(const FlowLine& line) {
 
 void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
   const std::string opened_do = line.name + " DO";
-  if (line.is("CALL")) return call(block, r);
+  if (line.is("CALL")) return call(block, r, called_program(line.name));
   if (line.is("SUB")) return open_subprogram(r, line.name);
   if (closes(line)) {
     if (r.body.open.empty()) refuse_end(block, r, line);

@@ -118,6 +118,12 @@ const FoundG* find_own_motion(const SortedBlock& sorted) {
   return nullptr;
 }
 
+/// "O9001" of M98 P9001 and G65 P9001; empty if P has no plain number.
+std::string called_by_number(const Reading& r) {
+  const Word* p = r.sorted.word('P');
+  return p != nullptr && p->literal ? fmt::format("O{:.0f}", p->value) : std::string();
+}
+
 void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
   switch (found.code->action) {
     case Action::own_way:
@@ -127,7 +133,7 @@ void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
     case Action::pocket:
       return read_pocket(block, r);
     case Action::call:
-      return read_call(block, r);
+      return read_call(block, r, called_by_number(r));
     default:
       return read_held(block, r, "the end of a probing move is not known", false);
   }
@@ -154,7 +160,7 @@ void apply_axis_words(const Block& block, Reading& r) {
   if (const FoundG* machine = r.sorted.find(Action::machine_move))
     return add_machine_move(block, r, *machine);
   if (const FoundG* own = find_own_motion(r.sorted)) return read_own_motion(block, r, *own);
-  if (r.sorted.has(MAction::call)) return read_call(block, r);
+  if (r.sorted.has(MAction::call)) return read_call(block, r, called_by_number(r));
   if (!has_words_of_motion(r) || takes_axis_words(r)) return;
   if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
     if (r.dialect.dwell_takes_axis_words) return;

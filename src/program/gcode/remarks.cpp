@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "program/text/line_length.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -67,6 +68,17 @@ void assume_of_calls(Program& program, int line) {
   add_remark(program, line,
              fmt::format("{}{}; see that their text agrees", assumption_of_calls,
                          kept_behind_calls(program.dialect)));
+}
+
+bool is_stated_harmless(Program& program, const ReadOptions& options, int line, std::string_view name) {
+  std::string known = upper_case(name);
+  std::erase(known, ' ');
+  if (!options.harmless_calls.contains(known)) return false;
+  add_remark(program, line,
+             fmt::format("assumed: '{}' neither moves the machine nor changes its state, as [program] "
+                         "harmless_calls of the machine file has it",
+                         name));
+  return true;
 }
 
 void add_remark(Program& program, int line, std::string what) {

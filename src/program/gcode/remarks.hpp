@@ -27,6 +27,10 @@ void add_remark(Program& program, int line, std::string what);
 /// behind such calls.
 void assume_of_calls(Program& program, int line);
 
+/// Whether the machine file states that the called program leaves the machine and its state as they are. Adds
+/// a remark with its name.
+bool is_stated_harmless(Program& program, const ReadOptions& options, int line, std::string_view name);
+
 /// Deviation from the path that G64, G5.1 and G187 allow the control.
 void remark_path_mode(const Block& block, Reading& reading);
 

@@ -9,6 +9,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "program/dialect.hpp"
+#include "program/expand/control_flow.hpp"
 #include "program/expand/expand.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/text/force_comment.hpp"
@@ -110,7 +111,15 @@ void read_corner(const KlartextBlock& block, KlartextReading& r) {
   expect_corner_behind(last);
 }
 
+/// "TNC:\\SPINDLE.H" of CALL PGM TNC:\\SPINDLE.H; empty for labels.
+std::string_view called_program(const KlartextBlock& block, const KlartextReading& r) {
+  const std::string_view call = trimmed_text(after_head(r.program.text, block));
+  return is_word(call.substr(0, 3), "PGM") ? trimmed_text(call.substr(3)) : std::string_view();
+}
+
 void read_call(const KlartextBlock& block, KlartextReading& r) {
+  const int line = line_of_file(r.program.expansion, block.line);
+  if (is_stated_harmless(r.program, r.options, line, called_program(block, r))) return;
   const std::string_view why_left = why_not_expanded(r.program.expansion, block.line);
   std::string why = "a subprogram or a part of the program is called";
   if (!why_left.empty())
@@ -119,7 +128,7 @@ void read_call(const KlartextBlock& block, KlartextReading& r) {
     why += " (--expand-subprograms replaces the call by its text)";
   add_unfollowed_move(block, r, why);
   forget_klartext_speeds(r.state);
-  assume_of_calls(r.program, line_of_file(r.program.expansion, block.line));
+  assume_of_calls(r.program, line);
 }
 
 /// What a probing cycle sets behind its measurement; empty for one that only measures.

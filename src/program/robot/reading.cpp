@@ -287,6 +287,10 @@ void note_unread_call(RobotReading& r, const RobotLine& line, std::string why) {
   assume_of_calls(r.program, line.line);
 }
 
+bool is_stated_harmless(RobotReading& r, const RobotLine& line, std::string_view name) {
+  return is_stated_harmless(r.program, r.options, line.line, name);
+}
+
 void forget_position(RobotReading& r) {
   r.state.joints.reset();
   forget_coordinates(r);

@@ -103,6 +103,10 @@ void note_cutting_call(RobotReading& reading, const RobotLine& line, std::string
 /// The same of a routine that is not read, with the remark that states what it must not change.
 void note_unread_call(RobotReading& reading, const RobotLine& line, std::string why);
 
+/// Whether the machine file states that the called program leaves the robot and its state as they are. Adds
+/// a remark with its name.
+bool is_stated_harmless(RobotReading& reading, const RobotLine& line, std::string_view name);
+
 /// The position and orientation of the tool are unknown until they are programmed.
 void forget_position(RobotReading& reading);
 

@@ -111,9 +111,20 @@ void set_control_variables(const Block& block, Reading& r) {
   note_uncorrected(block, r, "a variable of the control is set");
 }
 
+/// "L700", and SPINDLE of CALL "SPINDLE" and EXTCALL("SPINDLE").
+std::string_view called_program(const Block& block, const Reading& r) {
+  const std::string_view text = part(r.program.text, block.statement_text);
+  const std::size_t name = std::find_if_not(text.begin(), text.end(), is_identifier_character) - text.begin();
+  const std::string_view head = text.substr(0, name);
+  if (!is_word(head, "CALL") && !is_word(head, "EXTCALL")) return head;
+  const std::size_t quote = std::min(text.find('"'), text.size() - 1) + 1;
+  return text.substr(quote, text.find('"', quote) - quote);
+}
+
 void call_subprogram(const Block& block, Reading& r) {
+  const std::string_view program = called_program(block, r);
   r.sorted = {};
-  read_call(block, r);
+  read_call(block, r, program);
 }
 
 /// Measuring cycles that may write a work offset, or the kinematics of the machine, with what they measure.

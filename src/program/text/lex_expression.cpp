@@ -162,6 +162,12 @@ bool lex_macro_word(Scanner& s) {
 
 }  // namespace
 
+std::string upper_case(std::string_view text) {
+  std::string result(text);
+  std::transform(result.begin(), result.end(), result.begin(), upper);
+  return result;
+}
+
 bool is_word(std::string_view text, std::string_view upper_case) {
   return std::equal(text.begin(), text.end(), upper_case.begin(), upper_case.end(),
                     [](char a, char b) { return upper(a) == b; });

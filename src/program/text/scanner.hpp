@@ -72,6 +72,8 @@ inline bool may_move(char letter) {
   return std::string_view("ABCGIJKRUVWXYZ").find(upper(letter)) != std::string_view::npos;
 }
 
+std::string upper_case(std::string_view text);
+
 /// Whether `text` is `upper_case`, ignoring case.
 bool is_word(std::string_view text, std::string_view upper_case);
 

@@ -107,8 +107,9 @@ std::string_view word_not_read(const Block& block, const Reading& r) {
 
 }  // namespace
 
-void read_call(const Block& block, Reading& r) {
+void read_call(const Block& block, Reading& r, std::string_view program) {
   r.variables.clear();
+  if (is_stated_harmless(r.program, r.options, block.line, program)) return;
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;

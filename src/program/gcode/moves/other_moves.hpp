@@ -23,7 +23,7 @@ void read_engraving(const Block& block, Reading& reading, const FoundG& found);
 void read_pocket(const Block& block, Reading& reading);
 
 /// The call of a subprogram or macro: it may move all axes and set all states.
-void read_call(const Block& block, Reading& reading);
+void read_call(const Block& block, Reading& reading, std::string_view program);
 
 /// A block with an unknown effect: all states and the position are unknown afterwards.
 void read_anything(const Block& block, Reading& reading, std::string_view why);

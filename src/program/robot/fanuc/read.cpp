@@ -60,8 +60,16 @@ std::string_view shown(const TpReading& r, const RobotLine& line) {
   return part(r.robot.program.text, line.code);
 }
 
+/// "SPINDLE_ON" of "CALLSPINDLE_ON(1,2)", and the name of a macro.
+std::string_view called_program(std::string_view action) {
+  for (const std::string_view word : {"CALL", "RUN"})
+    if (action.starts_with(word)) action.remove_prefix(word.size());
+  return action.substr(0, action.find('('));
+}
+
 /// Another program may move the robot and set frames, tools and registers.
-void read_call(TpReading& r, const RobotLine& line) {
+void read_call(TpReading& r, const RobotLine& line, std::string_view action) {
+  if (is_stated_harmless(r.robot, line, called_program(action))) return;
   forget_tp_state(r);
   forget_tp_frames(r, line.line);
   note_unread_call(r.robot, line,
@@ -92,7 +100,7 @@ bool is_call(std::string_view action) {
 
 /// A jump, a call or an assignment under a condition, or at the end of a motion.
 void read_action(TpReading& r, const RobotLine& line, const std::string& action) {
-  if (is_call(action)) return read_call(r, line);
+  if (is_call(action)) return read_call(r, line, action);
   ++r.robot.open_bodies;
   read_tp_assignment(r, line, action);
   --r.robot.open_bodies;
@@ -134,7 +142,7 @@ void read_statement(TpReading& r, const RobotLine& line) {
   }
   if (is_body(statement)) return read_body(r, statement);
   if (is_conditional(statement)) return read_action(r, line, behind_condition(statement));
-  if (!read_tp_assignment(r, line, statement) && is_call(statement)) read_call(r, line);
+  if (!read_tp_assignment(r, line, statement) && is_call(statement)) read_call(r, line, statement);
 }
 
 /// Positions whose uses are all targets of followed moves go with these moves: they are not other text.

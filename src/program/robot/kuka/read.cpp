@@ -131,6 +131,7 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.zone_mm = 0;
   if (is_motionless_call(krl_word(name))) return;
   const KrlRoutine* const routine = r.facts.find(krl_word(name));
+  if (routine == nullptr && is_stated_harmless(r.robot, line, name)) return;
   r.has_called = true;
   if (routine != nullptr && routine->selects_tool) r.lost_tool = line.line;
   if (routine != nullptr && routine->selects_frame) forget_krl_base(r, line);

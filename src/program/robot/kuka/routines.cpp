@@ -215,7 +215,8 @@ bool KrlScan::is_local(std::string_view variable) const {
 // A statement that calls a routine of another file may move the robot; a function in an expression does not.
 KrlRoutine KrlScan::called(const std::string& name, bool as_statement) const {
   if (const KrlRoutine* const known = facts_.find(name)) return *known;
-  const bool motionless = is_among(name, pure_functions) || is_motionless_call(name);
+  const bool motionless =
+      is_among(name, pure_functions) || is_motionless_call(name) || harmless_.contains(name);
   const bool unread = as_statement && !motionless;
   return {.moves = unread, .calls_unread = unread, .acts = true};
 }
@@ -253,7 +254,8 @@ KrlFacts KrlScan::finish() {
 }
 
 KrlFacts krl_facts_of(std::string_view text) {
-  KrlScan scan;
+  const CallNames harmless;
+  KrlScan scan(harmless);
   scan.add(text.substr(0, data_list_at(text)));
   return scan.finish();
 }

@@ -8,6 +8,7 @@
 #include <tuple>
 #include <vector>
 
+#include "counterflex/program/read_program.hpp"
 #include "program/robot/kuka/lex.hpp"
 
 namespace counterflex {
@@ -41,6 +42,8 @@ struct KrlFacts {
 /// Scans the routines of a file, in portions of whole lines. Data lists have no routines.
 class KrlScan {
  public:
+  /// `harmless`: routines of other files that neither move the robot nor change its state.
+  explicit KrlScan(const CallNames& harmless) : harmless_(harmless) {}
   void add(std::string_view lines);
   KrlFacts finish();
 
@@ -64,6 +67,7 @@ class KrlScan {
     }
   };
 
+  const CallNames& harmless_;
   KrlFacts facts_;
   std::map<Argument, int> arguments_;
   std::set<std::string, std::less<>> locals_;  ///< of the routine under way: declared, or its parameters

@@ -96,7 +96,7 @@ void RapidModule::add_uses(std::string_view text, const RapidStatement& statemen
   });
 }
 
-void RapidModule::scan(std::string_view text) {
+void RapidModule::scan(std::string_view text, const CallNames& harmless) {
   const auto each_statement = [&](const auto& visit) {
     RapidStatement statement;
     do {
@@ -107,7 +107,7 @@ void RapidModule::scan(std::string_view text) {
   each_statement([&](const RapidStatement& statement) { declare(text, statement); });
   int line = 1;
   std::size_t counted = 0;
-  StillRoutines still;
+  StillRoutines still(harmless);
   each_statement([&](const RapidStatement& statement) {
     const auto begin = text.begin() + static_cast<std::ptrdiff_t>(counted);
     const auto end = text.begin() + static_cast<std::ptrdiff_t>(statement.span.begin);
@@ -148,7 +148,8 @@ void RapidScan::add(std::string_view lines) {
 }
 
 bool rapid_depends_on_far_lines(std::string_view text) {
-  RapidScan scan;
+  const CallNames harmless;
+  RapidScan scan(harmless);
   scan.add(text);
   return scan.depends_on_far_lines();
 }

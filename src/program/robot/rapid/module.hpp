@@ -39,7 +39,7 @@ class RapidModule {
   void declare(std::string_view text, const RapidStatement& statement);
 
   /// Adds all declarations and uses of a whole module.
-  void scan(std::string_view text);
+  void scan(std::string_view text, const CallNames& harmless);
 
   /// The datum with that name (any case) for a statement at byte `at`: of its routine, else of the module.
   const RapidDatum* find(std::string_view name, std::size_t at) const;
@@ -75,6 +75,7 @@ class RapidModule {
 /// and what the others need from far lines. Lines are added in portions.
 class RapidScan {
  public:
+  explicit RapidScan(const CallNames& harmless) : still_(harmless) {}
   void add(std::string_view lines);
   bool depends_on_far_lines() const { return far_; }
 

@@ -87,10 +87,12 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
     return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", name));
   if (is_motionless_instruction(head) && !r.module.has_routine(head)) return read_state(r, line, statement);
   if (r.module.has_still_routine(head)) return;
+  const bool is_read = r.module.has_routine(head);
+  if (!is_read && is_stated_harmless(r.robot, line, name)) return;
   forget(r);
   r.any_configuration = r.any_joint_configuration = false;
   const std::string why = fmt::format("the call of '{}' may move the robot", name);
-  if (!r.module.has_routine(head)) return note_unread_call(r.robot, line, why);
+  if (!is_read) return note_unread_call(r.robot, line, why);
   if (r.module.calls("CIRPATHMODE")) r.circle_path = "UNKNOWN";
   note_uncorrected(r.robot, line, why);
 }
@@ -158,7 +160,7 @@ void read_statement(RapidReading& r, const RobotLine& line, const RapidStatement
 
 void read_rapid_line(RapidReading& r, const RobotLine& line) {
   const std::string_view text = r.robot.program.text;
-  if (r.whole && !r.scanned) r.module.scan(text);
+  if (r.whole && !r.scanned) r.module.scan(text, r.robot.options.harmless_calls);
   r.scanned = true;
   std::size_t at = r.whole ? std::max(line.code.begin, r.behind) : line.code.begin;
   while (at < line.code.end && !r.robot.ended) {

@@ -49,7 +49,8 @@ void StillRoutines::add(std::string_view text, const RapidStatement& statement) 
 /// Whether it is still if the routines of the module that it calls are.
 bool StillRoutines::may_be_still(const Body& body) const {
   return !body.moves && std::ranges::all_of(body.instructions, [&](const std::string& head) {
-    return bodies_.contains(head) || (is_motionless_instruction(head) && !is_mode_instruction(head));
+    return bodies_.contains(head) || harmless_.contains(head) ||
+           (is_motionless_instruction(head) && !is_mode_instruction(head));
   });
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <string_view>
 
+#include "counterflex/program/read_program.hpp"
 #include "program/robot/rapid/statement.hpp"
 
 namespace counterflex {
@@ -16,6 +17,8 @@ using RapidNames = std::set<std::string, std::less<>>;  ///< in upper case
 /// of the module that they call. The statements of the module are added in order.
 class StillRoutines {
  public:
+  /// `harmless`: routines of other modules that neither move the robot nor change its state.
+  explicit StillRoutines(const CallNames& harmless) : harmless_(harmless) {}
   void add(std::string_view text, const RapidStatement& statement);
 
   /// The names of these routines.
@@ -33,6 +36,7 @@ class StillRoutines {
 
   bool may_be_still(const Body& body) const;
 
+  const CallNames& harmless_;
   std::map<std::string, Body, std::less<>> bodies_{};  ///< by name of the routine
   Body* body_ = nullptr;                               ///< of the last statement; null: outside of routines
   bool ended_ = false;                                 ///< behind ENDMODULE

@@ -56,7 +56,7 @@ void change_to_line(Span keyword, const std::vector<RapidOperand>& targets,
 
 RapidWriter::RapidWriter(const Program& window, const WriteOptions& options)
     : RobotWriter(window, options, rapid_comment) {
-  if (rapid_depends_on_far_lines(window.text)) module_.scan(window.text);
+  if (rapid_depends_on_far_lines(window.text)) module_.scan(window.text, {});
 }
 
 /// Behind the line of MODULE: before it only the version of the format is allowed.

@@ -112,7 +112,7 @@ void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
   if (is_among(name, ur_other_motions))
     return add_unfollowed_move(r.robot, line, fmt::format("{} is not supported", name));
   if (is_among(name, ur_motionless_calls) || std::ranges::any_of(ur_motionless_prefixes, has_prefix)) return;
-  run_function(r, line, name);
+  if (!is_stated_harmless(r.robot, line, name)) run_function(r, line, name);
 }
 
 void refuse_empty_argument(const UrReading& r, const RobotLine& line, const UrCall& call) {

@@ -36,7 +36,18 @@ void read_label(JbiReading& r) {
   r.is_shifted = r.is_shifted || r.job->shifts;
 }
 
+/// "SPINDLE_ON" of "CALL JOB:SPINDLE_ON", and the name of a macro.
+std::string_view called_job(const JbiReading& r, const RobotLine& line) {
+  constexpr std::string_view job = "JOB:";
+  const std::string_view text = r.robot.program.text;
+  const auto words = jbi_words(text, line.code);
+  for (const Span& word : words)
+    if (const auto name = part(text, word); name.starts_with(job)) return name.substr(job.size());
+  return part(text, words.front());
+}
+
 void read_call(JbiReading& r, const RobotLine& line, std::string_view what) {
+  if (is_stated_harmless(r.robot, line, called_job(r, line))) return;
   forget(r);
   r.speed_mm_s = 0;
   if (r.call_line == 0) r.call_line = line.line;
