@@ -218,7 +218,7 @@ void read_circle(KrlReading& r, const RobotLine& line, const MotionStatement& st
   if (!targets[0] || !targets[1]) why = run_time;
   if (!statement.operands[0].aggregate || !statement.operands[1].aggregate)
     why = "the points of CIRC are given by names";
-  if (r.turns_with_path) why = "$CIRC_TYPE=#PATH turns the tool with the path";
+  if (!r.why_no_circles.empty()) why = r.why_no_circles;
   if (in_body(r)) why = in_a_body;
   if (!why.empty()) return add_unfollowed_move(r.robot, line, why);
   if (ends_at_angle(text, statement))

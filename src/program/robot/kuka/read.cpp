@@ -94,7 +94,7 @@ void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& 
   if (variable == "$APO.CDIS" || variable == "$APO") return assign_zone(r, assignment.value);
   if (variable == "$VEL") return assign_speeds(r, assignment.value);
   if (variable == "$CIRC_TYPE") {
-    r.turns_with_path = value != "#BASE" || in_body(r);
+    r.why_no_circles = value == "#BASE" && !in_body(r) ? "" : "$CIRC_TYPE=#PATH turns the tool with the path";
     return;
   }
   if (variable == "$ORI_TYPE") return set_krl_orientation_type(r, value);
@@ -126,6 +126,15 @@ void begin_or_end(KrlReading& r) {
   if (r.data_lists) read_names_of_lists(r);
 }
 
+/// A routine of the file may have set how later motions run. Its values are not followed.
+void forget_modes(KrlReading& r, const KrlRoutine& routine, std::string_view name) {
+  if (routine.sets_speed) r.robot.state.feed_mm_min = 0;
+  if (routine.sets_turns)
+    r.why_not_followed = fmt::format("'{}' may set $ORI_TYPE; set it behind the call", name);
+  if (routine.sets_circle)
+    r.why_no_circles = fmt::format("'{}' may set $CIRC_TYPE; set it behind the call", name);
+}
+
 /// A call may run any statement of a routine of another file.
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.zone_mm = 0;
@@ -135,6 +144,7 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.has_called = true;
   if (routine != nullptr && routine->selects_tool) r.lost_tool = line.line;
   if (routine != nullptr && routine->selects_frame) forget_krl_base(r, line);
+  if (routine != nullptr) forget_modes(r, *routine, name);
   if (routine != nullptr && !routine->moves) return;
   forget_position(r.robot);
   r.robot.state.external = {};
@@ -154,7 +164,7 @@ void read_inner_calls(KrlReading& r, const RobotLine& line, std::size_t at) {
     const std::size_t open = behind_blanks(text, name.end, line.code.end);
     if (empty(name) || open >= line.code.end || text[open] != '(') continue;
     const KrlRoutine* const routine = r.facts.find(krl_word(part(text, name)));
-    if (routine != nullptr && routine->acts) read_call(r, line, part(text, name));
+    if (routine != nullptr && (routine->acts || routine->sets_speed)) read_call(r, line, part(text, name));
   }
 }
 

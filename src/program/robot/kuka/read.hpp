@@ -32,7 +32,7 @@ struct KrlReading {
   int lost_tool = 0;                ///< line behind which the tool is not known; 0: it is
   std::string frame_data{};         ///< right side of the last FDAT_ACT
   std::string line_data{};          ///< right side of the last LDAT_ACT
-  bool turns_with_path = false;     ///< $CIRC_TYPE=#PATH
+  std::string why_no_circles{};     ///< why CIRC is not followed: $CIRC_TYPE; empty if it is
   double zone_mm = 0;               ///< $APO.CDIS, of C_DIS; 0: not known
   std::string why_not_followed{};   ///< why linear moves are not followed; empty if they are
   const bool data_lists = false;    ///< they follow the program

@@ -176,6 +176,11 @@ void KrlScan::add_statement(std::string_view text, const RobotLine& line) {
       routine_->selects_frame || variable.starts_with("$BASE") || (selects && question != "#TOOL");
   routine_->selects_tool =
       routine_->selects_tool || variable.starts_with("$TOOL") || (selects && question != "#BASE");
+  routine_->sets_speed = routine_->sets_speed || variable.starts_with("$VEL") || question == "#VEL_CP" ||
+                         question == "#CP_PARAMS";
+  routine_->sets_turns =
+      routine_->sets_turns || variable == "$ORI_TYPE" || question == "#CP_PARAMS" || question == "#CP_DAT";
+  routine_->sets_circle = routine_->sets_circle || variable == "$CIRC_TYPE";
   const bool is_own = !variable.empty() && is_local(variable);
   routine_->acts = routine_->acts || !(is_own || may_repeat(text, line) || is_krl_call(text, line));
   const std::string changed = changed_part(variable);
@@ -237,6 +242,9 @@ void KrlScan::close_over_calls() {
         add(entry.second.calls_unread, of.calls_unread);
         add(entry.second.selects_frame, of.selects_frame);
         add(entry.second.selects_tool, of.selects_tool);
+        add(entry.second.sets_speed, of.sets_speed);
+        add(entry.second.sets_turns, of.sets_turns);
+        add(entry.second.sets_circle, of.sets_circle);
         add(entry.second.acts, of.acts);
       }
   } while (grows);

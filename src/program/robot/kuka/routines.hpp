@@ -20,6 +20,9 @@ struct KrlRoutine {
   bool calls_unread = false;   ///< it calls a routine of another file, as a statement
   bool selects_frame = false;  ///< $BASE, or a call of BAS that may set it
   bool selects_tool = false;
+  bool sets_speed = false;       ///< $VEL, or a call of BAS that may set it
+  bool sets_turns = false;       ///< $ORI_TYPE, or a call of BAS that may set it
+  bool sets_circle = false;      ///< $CIRC_TYPE
   bool acts = false;             ///< it does more than set speeds
   std::vector<bool> is_input{};  ///< by parameter: IN; the routine may change others
   /// In upper case; true: as a statement, not as a function of an expression.

@@ -291,6 +291,33 @@ TEST_CASE("a routine of the file without motions leaves the position, and one th
   CHECK_FALSE(all_known(cuts.moves[1].known_start));
 }
 
+TEST_CASE("behind a KRL routine that sets how motions run, its values are not followed until they are set") {
+  const auto read = [](const std::string& body, const std::string& behind) {
+    return read_krl("DEF job()\n$VEL.CP=0.1\nLIN {X 0,Y 0,Z 0,A 0,B 0,C 0}\npart()\n" + behind +
+                    "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n"
+                    "CIRC {X 10,Y 5,Z 0},{X 15,Y 0,Z 0,A 0,B 0,C 0}\nEND\n"
+                    "DEF part()\ninner()\nEND\nDEF inner()\n" +
+                    body + "END\n");
+  };
+  for (const std::string body : {"$VEL.CP=0.5\n", "$VEL={CP 2}\n", "BAS(#VEL_CP,0.5)\n"}) {
+    CAPTURE(body);
+    const Program slower = read(body, "");
+    CHECK(slower.left_alone.empty());
+    CHECK(slower.moves.at(1).feed_mm_min == 0);
+    CHECK(read(body, "$VEL.CP=0.2\n").moves.at(1).feed_mm_min == doctest::Approx(12'000));
+  }
+  const auto reason = [](const Program& program) {
+    return program.left_alone.empty() ? "" : program.left_alone.front().why;
+  };
+  CHECK(reason(read("$ORI_TYPE=#CONSTANT\n", "")) == "'part' may set $ORI_TYPE; set it behind the call");
+  CHECK(reason(read("$ORI_TYPE=#CONSTANT\n", "$ORI_TYPE=#VAR\n")).empty());
+  const Program turning = read("$CIRC_TYPE=#PATH\n", "");
+  CHECK(reason(turning) == "'part' may set $CIRC_TYPE; set it behind the call");
+  CHECK(turning.left_alone.front().line == 6);
+  CHECK(reason(read("$CIRC_TYPE=#PATH\n", "$CIRC_TYPE=#BASE\n")).empty());
+  CHECK(read("$OUT[7]=TRUE\n", "").moves.at(1).feed_mm_min == 6000);
+}
+
 TEST_CASE("a routine of another KRL file may cut, and the report shows what it must not change") {
   const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
   for (const std::string routine : {"", "DEF part()\nSPINDLE(1)\nEND\n"}) {
