@@ -33,6 +33,9 @@ constexpr std::array<MillingCycle, 10> milling_cycles{{{"POCKET1", 8, 20},
                                                        {"CYCLE76", 8, 20},
                                                        {"CYCLE77", 6, 16}}};
 
+/// Without DPR: its place in the list has another argument.
+constexpr auto without_depth_below = std::to_array<std::string_view>({"POCKET3", "POCKET4", "CYCLE71"});
+
 constexpr std::string_view modal_call = "MCALL";
 
 // Indices in the argument list.
@@ -89,11 +92,24 @@ std::optional<Argument> number_at(std::string_view text, const ArgumentList& cal
   return Argument{{span, decimals}, *read_number(number)};
 }
 
-/// DPR, the depth below the reference plane, as a height; NaN if it is not a plain number.
+/// DPR, the depth below the reference plane; empty if the list has none.
+std::string_view depth_below_reference(std::string_view text, const ArgumentList& call) {
+  if (depth_below >= call.arguments.size() || is_one_of(call.name, without_depth_below)) return {};
+  return part(text, call.arguments[depth_below]);
+}
+
+/// Whether DPR has priority over DP: Siemens, SINUMERIK 840D Programming Manual Cycles, "Drilling, centering
+/// - CYCLE81". Programs that use DP often give zero for DPR.
+bool takes_depth_below(std::string_view text, const ArgumentList& call) {
+  const std::string_view depth = depth_below_reference(text, call);
+  return !depth.empty() && !(is_plain(depth) && read_number(depth) == 0.0);
+}
+
+/// The bottom by DPR as a height; NaN if it is not a plain number.
 double height_below(std::string_view text, const ArgumentList& call, double reference_mm) {
-  const bool given = depth_below < call.arguments.size() && !empty(call.arguments[depth_below]);
-  const auto depth = given ? number_at(text, call, depth_below) : std::nullopt;
-  return depth ? reference_mm - std::abs(depth->value) : std::numeric_limits<double>::quiet_NaN();
+  const std::string_view depth = depth_below_reference(text, call);
+  return is_plain(depth) ? reference_mm - std::abs(*read_number(depth))
+                         : std::numeric_limits<double>::quiet_NaN();
 }
 
 /// Fills `cycle` from the arguments; false if a height is not a plain number.
@@ -103,6 +119,7 @@ bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& 
   for (const std::size_t place : {reference_plane, retract_plane, final_depth, first_depth}) {
     const std::size_t height = i++;
     if (place == first_depth && !pecks) continue;
+    if (place == final_depth && takes_depth_below(text, call)) continue;
     const bool given = place < call.arguments.size() && !empty(call.arguments[place]);
     if (!given && (place == reference_plane || place == retract_plane)) return false;
     if (!given) continue;

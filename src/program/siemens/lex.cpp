@@ -185,8 +185,8 @@ void lex_letter(Scanner& s) {
   read_named_word(s, letter, 1);
   Word& word = s.block.words[words];
   if (letter == 'P') word.value -= 1;
-  // An M with an expression does not affect moves. A tool with a name has no number.
-  if (!word.literal && (letter == 'M' || letter == 'H' || letter == 'D')) s.block.words.pop_back();
+  // An M with an expression does not affect moves.
+  if (!word.literal && (letter == 'M' || letter == 'H')) s.block.words.pop_back();
 }
 
 /// "RND=4", "CHR=2", "CHF=3": the corner with the next move. False for other names.

@@ -68,6 +68,9 @@ TEST_CASE("siemens: the bottom of a hole is DP, or DPR below the reference plane
   CHECK(bottom_of("CYCLE81(50,0,2,-20)") == -20);
   CHECK(bottom_of("CYCLE82(50,1,2,,15,0.5)") == -14);
   CHECK(bottom_of("CYCLE82(50,1,2,,-15)") == -14);
+  CHECK(bottom_of("CYCLE81(50,1,2,-20,15)") == -14);
+  CHECK(bottom_of("CYCLE81(50,1,2,-20,0)") == -20);
+  CHECK(std::isnan(bottom_of("CYCLE81(50,1,2,-20,R1)")));
   CHECK(std::isnan(bottom_of("CYCLE81(50,0,2)")));
   CHECK(std::isnan(bottom_of("CYCLE81(50,0,2,,R1)")));
 }
@@ -97,6 +100,8 @@ TEST_CASE("siemens: under G91 holes are relative to the hole before, their heigh
 TEST_CASE("siemens: a milling cycle is shifted with its centre and its absolute heights") {
   CHECK(shifted_lines("POCKET3(50,0,2,-10,60,20,5,50,40.0,0,4,0.1,0.1,500,200,0,11,5)\n") ==
         "POCKET3(50.125,0.125,2,-9.875,60,20,5,50.5,39.75,0,4,0.1,0.1,500,200,0,11,5)\n");
+  CHECK(shifted_lines("POCKET1(50,0,2,-10,15,60,20,5,50,40.0,0,4,0.1,0.1,3)\n") ==
+        "POCKET1(50.125,0.125,2,-10,15,60,20,5,50.5,39.75,0,4,0.1,0.1,3)\n");
   CHECK(shifted_lines("N7 POCKET4(50, 0, 2, -10, 25, 60, 40, 4) ; round\n") ==
         "N7 POCKET4(50.125, 0.125, 2, -9.875, 25, 60.5, 39.75, 4) ; round\n");
   CHECK(shifted_lines("LONGHOLE(50,0,2,-10,,4,30,40,45,20,45,90,100,320,6)\n") ==

@@ -240,6 +240,16 @@ TEST_CASE(
   CHECK_FALSE(program.moves[3].known_start[2]);
 }
 
+TEST_CASE("siemens: behind a D that is an expression Z is not known") {
+  const auto knows_z = [](const std::string& edge) {
+    const Program program = siemens(std::string(siemens_start) + "G1 X5 D1 F100\n" + edge + "\nX7\n");
+    return program.moves.back().known_start[2];
+  };
+  CHECK(knows_z("D1"));
+  CHECK_FALSE(knows_z("D=R1"));
+  CHECK_FALSE(knows_z("D=EDGE+1"));
+}
+
 TEST_CASE("siemens: the header is written as comments below the lines that must be first") {
   const Program program = siemens("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1 SUPA\n");
   const std::string text = rewrite(program, {}, {.header = {"Counterflex 1 made"}}).text;
