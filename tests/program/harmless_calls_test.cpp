@@ -135,5 +135,7 @@ TEST_CASE("a routine of the text is judged by its text, also where its name is s
   CHECK(may_move(rapid_with("part;\n", "PROC part()\n" + move + "ENDPROC\n"), "abb"));
   CHECK_FALSE(may_move(rapid_with("part;\n", "PROC part()\nspindle_on;\nENDPROC\n"), "abb"));
   CHECK(may_move(rapid_with("part;\n", "PROC part()\nspindle_off;\nENDPROC\n"), "abb"));
+  CHECK_FALSE(may_move(ur_with("part()\n", "def part():\nspindle_on(3)\nend\n"), "ur"));
+  CHECK(may_move(ur_with("part()\n", "def part():\nspindle_off()\nend\n"), "ur"));
   CHECK(may_move(ur_with("part()\n", "def part():\nmovel(p[0.9,0,0.1,0,0,0])\nend\n"), "ur"));
 }

@@ -19,9 +19,11 @@ struct UrVariable {
   bool by_member = false;      ///< a statement assigns one of its elements
 };
 
+using UrFunctions = std::set<std::string, std::less<>>;  ///< names of functions and threads
+
 struct UrNames {
   std::map<std::string, UrVariable, std::less<>> variables;
-  std::set<std::string, std::less<>> functions;  ///< functions and threads that the text defines
+  UrFunctions functions;  ///< functions and threads that the text defines
   /// Where the text calls a function that it does not define, before the statement that is read. It might
   /// assign variables.
   std::size_t last_unknown_call = 0;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "program/robot/ur/still_functions.hpp"
 #include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
@@ -19,40 +20,6 @@ constexpr auto ur_other_motions =
 /// Functions after which the tool does not go to the programmed targets.
 constexpr auto ur_shifting = std::to_array<std::string_view>(
     {"force_mode", "track_conveyor_linear", "track_conveyor_circular", "path_offset_enable"});
-/// Functions of the control that do not move the robot.
-constexpr auto ur_motionless_calls = std::to_array<std::string_view>({"sleep",
-                                                                      "sync",
-                                                                      "textmsg",
-                                                                      "popup",
-                                                                      "stopj",
-                                                                      "stopl",
-                                                                      "set_digital_out",
-                                                                      "set_standard_digital_out",
-                                                                      "set_configurable_digital_out",
-                                                                      "set_tool_digital_out",
-                                                                      "set_analog_out",
-                                                                      "set_standard_analog_out",
-                                                                      "set_tool_voltage",
-                                                                      "set_payload",
-                                                                      "set_payload_mass",
-                                                                      "set_payload_cog",
-                                                                      "set_target_payload",
-                                                                      "set_gravity",
-                                                                      "set_flag",
-                                                                      "set_runstate_outputs",
-                                                                      "set_analog_inputrange",
-                                                                      "set_analog_outputdomain",
-                                                                      "set_tool_communication",
-                                                                      "set_tool_output_mode",
-                                                                      "zero_ftsensor",
-                                                                      "end_force_mode",
-                                                                      "stop_conveyor_tracking",
-                                                                      "path_offset_disable",
-                                                                      "end_freedrive_mode",
-                                                                      "end_teach_mode",
-                                                                      "set_conveyor_tick_count"});
-constexpr auto ur_motionless_prefixes = std::to_array<std::string_view>(
-    {"get_", "is_", "read_", "write_", "socket_", "modbus_", "rtde_", "rpc_", "str_", "to_"});
 /// Words that begin the next part of a body.
 constexpr auto ur_body_parts = std::to_array<std::string_view>({"elif", "else", "case", "default"});
 /// Words that begin other statements that do not move the robot.
@@ -76,7 +43,8 @@ void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
   for (std::size_t at = value.begin; at < value.end;) {
     const Span name = ur_name_at(text, at, value.end);
     at = empty(name) ? at + 1 : name.end;
-    if (!empty(name) && r.names.functions.contains(part(text, name)))
+    if (!empty(name) && r.names.functions.contains(part(text, name)) &&
+        !r.still_functions.contains(part(text, name)))
       return run_function(r, line, part(text, name));
   }
 }
@@ -100,7 +68,7 @@ void select_tool(UrReading& r, const UrCall& call) {
 
 void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
   const std::string_view name = part(r.robot.program.text, call.name);
-  const auto has_prefix = [&](std::string_view prefix) { return name.starts_with(prefix); };
+  if (r.still_functions.contains(name)) return;
   if (r.names.functions.contains(name)) return run_function(r, line, name);
   if (is_among(name, ur_motions)) return read_ur_motion(r, line, call);
   if (name == "set_tcp") return select_tool(r, call);
@@ -111,7 +79,7 @@ void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
                        name));
   if (is_among(name, ur_other_motions))
     return add_unfollowed_move(r.robot, line, fmt::format("{} is not supported", name));
-  if (is_among(name, ur_motionless_calls) || std::ranges::any_of(ur_motionless_prefixes, has_prefix)) return;
+  if (is_ur_motionless_call(name)) return;
   if (!is_stated_harmless(r.robot, line, name)) run_function(r, line, name);
 }
 

@@ -9,7 +9,8 @@ namespace counterflex {
 
 struct UrReading {
   RobotReading& robot;
-  UrNames names{};            ///< of the whole text
+  UrNames names{};  ///< of the whole text
+  UrFunctions still_functions{};
   bool begun = false;         ///< the function that is the program has begun
   std::string tool{};         ///< pose of the last set_tcp, or an expression of it
   bool unknown_zone = false;  ///< the blend radius at the last target is computed at run time

@@ -2,6 +2,8 @@
 
 #include <utility>
 
+#include "program/robot/ur/still_functions.hpp"
+
 namespace counterflex {
 
 UrReader::UrReader(const std::string& file, const ReadOptions& options, const Dialect& dialect,
@@ -12,7 +14,10 @@ UrReader::UrReader(const std::string& file, const ReadOptions& options, const Di
 }
 
 void UrReader::read_statement(const RobotLine& line) {
-  if (!names_are_known_) ur_.names = ur_names(program().text);
+  if (!names_are_known_) {
+    ur_.names = ur_names(program().text);
+    ur_.still_functions = ur_still_functions(program().text, reading().options.harmless_calls);
+  }
   names_are_known_ = true;
   read_ur_statement(ur_, line);
 }

@@ -206,6 +206,29 @@ TEST_CASE("a function of the program in a condition or in an argument makes the 
   CHECK(!is_known_behind("ok = probe()\n" + line));
 }
 
+TEST_CASE("a function or a thread of the program that does not move the robot leaves the position known") {
+  const auto is_known_behind = [](const std::string& functions, const std::string& call) {
+    CAPTURE(functions);
+    const Program program =
+        read_ur_statements(functions + "movel(p[0,0,0,0,0,0])\n" + call + "movel(p[0.1,0,0,0,0,0])\n");
+    return all_known(program.moves.back().known_start) && program.left_alone.empty();
+  };
+  const auto body = [](const std::string& statements) { return "def part(n):\n" + statements + "end\n"; };
+  const std::string call = "part(3)\n";
+  CHECK(
+      is_known_behind(body("set_digital_out(1, True)\nif (n > 0):\nsleep(sqrt(n))\nend\nreturn n\n"), call));
+  CHECK(is_known_behind(body("textmsg(\"call movel(p) now\")\n"), call));
+  CHECK(is_known_behind(body("inner()\n") + "def inner():\nset_flag(1, True)\nend\n", call));
+  CHECK(is_known_behind(body("sync()\n"), "x = part(3)\n"));
+  CHECK(is_known_behind("thread blink():\nwhile True:\nset_flag(1, True)\nsleep(1)\nend\nend\n",
+                        "t = run blink()\n"));
+  CHECK_FALSE(
+      is_known_behind(body("inner()\n") + "def inner():\nif n:\nmovej([0,0,0,0,0,0])\nend\nend\n", call));
+  CHECK_FALSE(is_known_behind(body("set_tcp(p[0,0,0.1,0,0,0])\n"), call));
+  CHECK_FALSE(is_known_behind(body("elsewhere(3)\n"), call));
+  CHECK_FALSE(is_known_behind(body("x = 3 + elsewhere (3)\n"), call));
+}
+
 TEST_CASE("another tool makes the position unknown, the same tool does not") {
   const Program program = read_ur_statements(
       "tool = p[0,0,0.1,0,0,0]\n"
@@ -224,7 +247,7 @@ TEST_CASE("another tool makes the position unknown, the same tool does not") {
 
 TEST_CASE("a function that is not in the script may cut, and the report shows what it must not change") {
   const auto read = [](const std::string& call) {
-    return read_ur_statements("def own():\nend\nmovel(p[0,0,0,0,0,0])\n" + call +
+    return read_ur_statements("def own():\nmovej([0,0,0,0,0,0])\nend\nmovel(p[0,0,0,0,0,0])\n" + call +
                               "\nmovel(p[0.1,0,0,0,0,0])\n");
   };
   const Program own = read("own()"), other = read("other()");

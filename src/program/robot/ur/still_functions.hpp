@@ -1,0 +1,17 @@
+#pragma once
+/// Which functions of a URScript do not move the robot.
+#include <string_view>
+
+#include "counterflex/program/read_program.hpp"
+#include "program/robot/ur/names.hpp"
+
+namespace counterflex {
+
+/// Whether the control has a function `name` that does not move the robot and keeps its tool.
+bool is_ur_motionless_call(std::string_view name);
+
+/// The functions and threads of `text` that call nothing else than such functions, routines that are stated
+/// as `harmless`, and each other.
+UrFunctions ur_still_functions(std::string_view text, const CallNames& harmless);
+
+}  // namespace counterflex
