@@ -221,9 +221,12 @@ class PlacesReached {
     const Model& model = model_with(base_, &tools_, move.tool);
     const Status status = nominal_.go_to(model, p_M, R_M);
     if (status != Status::converged)
-      return Failure{ErrorKind::not_compensated, move.line,
-                     fmt::format("the machine does not reach the end of this move: {}", to_string(status)), 0,
-                     status};
+      return Failure{
+          ErrorKind::not_compensated, move.line,
+          fmt::format("the machine does not reach ({:.7g}, {:.7g}, {:.7g}) mm of its frame, to which "
+                      "this block goes: {}",
+                      p_M.x() / mm, p_M.y() / mm, p_M.z() / mm, to_string(status)),
+          0, status};
     const Eigen::VectorXd rho = actuator_values(model.mechanism, nominal_.configuration());
     if (within_travel(model.mechanism, rho)) {
       travel_.add(model.mechanism, rho, move.line);
