@@ -85,14 +85,45 @@ bool jumps_in(std::string_view lines) {
   return false;
 }
 
+/// The name of the program that a line of G-code defines, in upper case: "O100" of "O0100" and "o100 sub",
+/// "POCKET" of "o<pocket> sub", "PROC POCKET(REAL A)" and "%_N_POCKET_SPF". Empty for other lines.
+std::string program_defined_in(std::string_view line, const Dialect& dialect) {
+  std::string code = upper_case(line.substr(0, line.find_first_of("(;")));
+  std::erase_if(code, [](char c) { return is_blank(c) || c == '\r'; });
+  if (dialect.sinumerik_words) {
+    for (const std::string_view begin : {"PROC", "%_N_"})
+      if (code.starts_with(begin)) return code.substr(begin.size(), code.rfind("_SPF") - begin.size());
+    return {};
+  }
+  if (!code.starts_with('O') || (dialect.o_words && !code.ends_with("SUB"))) return {};
+  if (code.starts_with("O<")) return code.substr(2, code.find('>') - 2);
+  const std::size_t begin = std::min(code.find_first_not_of('0', 1), code.size());
+  return "O" + code.substr(begin, code.find_first_not_of("0123456789", begin) - begin);
+}
+
 }  // namespace
 
+/// Whether harmless names may be those of programs that the text defines.
+bool OutlineScan::names_programs() const {
+  return !harmless_.empty() && dialect_.language.empty() && dialect_.name != klartext_name;
+}
+
+void OutlineScan::add_own_programs(std::string_view lines) {
+  while (!lines.empty()) {
+    const std::size_t end = std::min(lines.find('\n'), lines.size() - 1) + 1;
+    std::string name = program_defined_in(lines.substr(0, end - 1), dialect_);
+    if (harmless_.contains(name)) outline_.own_programs.insert(std::move(name));
+    lines.remove_prefix(end);
+  }
+}
+
 bool OutlineScan::may_find() const {
-  return dialect_.sinumerik_words || dialect_.name == klartext_name || !dialect_.language.empty() ||
-         (dialect_.family & (shop_families | mach3_family)) != 0;
+  return names_programs() || dialect_.sinumerik_words || dialect_.name == klartext_name ||
+         !dialect_.language.empty() || (dialect_.family & (shop_families | mach3_family)) != 0;
 }
 
 void OutlineScan::add(std::string_view blocks) {
+  if (names_programs()) add_own_programs(blocks);
   if (dialect_.name == klartext_name)
     klartext_.add(blocks);
   else if (dialect_.name == kuka_name)

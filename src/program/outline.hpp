@@ -26,6 +26,8 @@ struct Outline {
   RapidNames routines{}, still_routines{};
   bool list_follows_loop = false;  ///< the data list is behind the loop that uses it
   bool tool_axes = false;          ///< an APT program gives tool axes: GOTO/ with six numbers
+  /// Programs and subprograms that a text in G-code defines, of those that are stated as harmless.
+  CallNames own_programs{};
 };
 
 /// Scans a text once, in portions of whole blocks. Finds nothing in dialects of G-code without numbered
@@ -34,7 +36,7 @@ class OutlineScan {
  public:
   /// `harmless` as in ReadOptions.
   OutlineScan(const Dialect& dialect, const CallNames& harmless)
-      : dialect_(dialect), rapid_(harmless), krl_(harmless) {}
+      : dialect_(dialect), harmless_(harmless), rapid_(harmless), krl_(harmless) {}
   /// Whether programs in the dialect can have such properties.
   bool may_find() const;
   void add(std::string_view blocks);
@@ -44,7 +46,11 @@ class OutlineScan {
   void add_numbered(std::string_view lines);
   void add_krl(std::string_view lines);
 
+  void add_own_programs(std::string_view lines);
+  bool names_programs() const;
+
   const Dialect& dialect_;
+  const CallNames& harmless_;
   bool begun_ = false;
   Outline outline_;
   KlartextScan klartext_;

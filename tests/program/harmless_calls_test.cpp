@@ -139,3 +139,78 @@ TEST_CASE("a routine of the text is judged by its text, also where its name is s
   CHECK(may_move(ur_with("part()\n", "def part():\nspindle_off()\nend\n"), "ur"));
   CHECK(may_move(ur_with("part()\n", "def part():\nmovel(p[0.9,0,0.1,0,0,0])\nend\n"), "ur"));
 }
+
+TEST_CASE("a call beside words of a motion is not harmless, and a call of a block number never is") {
+  const auto is_called = [](const std::string& dialect, const std::string& block, const std::string& name) {
+    CAPTURE(block);
+    const CallCase call{dialect, block, name, gcode_with};
+    const Program program = read_program(gcode_with(block + "\n"), "p", options_of(call, {name}));
+    return std::any_of(program.left_alone.begin(), program.left_alone.end(),
+                       [](const LeftAlone& left) { return left.why.starts_with("a subprogram is called"); });
+  };
+  CHECK(is_called("fanuc", "X3. M98 P9001", "O9001"));
+  const CallCase siemens{"siemens", "", "", gcode_with};
+  CHECK(read_program(gcode_with("X3 L700\n"), "p", options_of(siemens, {"L700"})).left_alone.size() > 0);
+  CHECK(is_called("haas", "M97 P100", "O100"));
+  CHECK_FALSE(is_called("haas", "M98 P100", "O100"));
+  CHECK_FALSE(is_called("fanuc", "G28 Z0. M98 P9001", "O9001"));
+}
+
+TEST_CASE("a call in the block of a machine position is not lost") {
+  for (const char* move : {"G28 Z0.", "G53 Z0."}) {
+    CAPTURE(move);
+    const CallCase call{"fanuc", "", "", gcode_with};
+    const Program program =
+        read_program(gcode_with(std::string(move) + " M98 P9001\n"), "p", options_of(call, {}));
+    REQUIRE(program.left_alone.size() >= 2);
+    CHECK(program.left_alone[0].machine_position);
+    CHECK(program.left_alone[1].why.starts_with("a subprogram is called"));
+    REQUIRE(!program.remarks.empty());
+    CHECK(program.remarks[0].what.starts_with("assumed from here on: called programs do not change"));
+    CHECK_FALSE(program.moves.back().known_start[0]);
+  }
+}
+
+TEST_CASE("F, S and T of G65 are arguments of the macro") {
+  const CallCase call{"fanuc", "", "", gcode_with};
+  const auto last = [&](const std::string& block) {
+    return read_program("T1 M6\n" + gcode_with(block + "M6\nG1 X9.\n"), "p", options_of(call, {"O9001"}))
+        .moves.back();
+  };
+  const Move with = last("G65 P9001 F30. S100 T7\n"), without = last("");
+  CHECK(with.feed_mm_min == without.feed_mm_min);
+  CHECK(with.spindle_rpm == without.spindle_rpm);
+  CHECK(with.tool == without.tool);
+}
+
+TEST_CASE("a subprogram of the text is not harmless, also where its name is stated") {
+  const auto is_stated = [](const std::string& dialect, const std::string& name, const std::string& text) {
+    CAPTURE(text);
+    const CallCase call{dialect, "", "", gcode_with};
+    const Program program = read_program(text, "p", options_of(call, {name}));
+    return std::any_of(program.remarks.begin(), program.remarks.end(),
+                       [](const Remark& remark) { return remark.what.starts_with("assumed: '"); });
+  };
+  const std::string fanuc = "O1\n" + gcode_with("M98 P9001\n") + "M30\n";
+  CHECK(is_stated("fanuc", "O9001", fanuc + "O9002\nG91 X3.\nM99\n"));
+  CHECK_FALSE(is_stated("fanuc", "O9001", fanuc + "O9001 (MOVES)\nG91 X3.\nM99\n"));
+  CHECK_FALSE(is_stated("fanuc", "O9001", fanuc + " o09001\nG91 X3.\nM99\n"));
+  const std::string word = gcode_with("o<on> call\n") + "M2\n";
+  CHECK(is_stated("linuxcnc", "ON", "o<off> sub\nG0 X3\no<off> endsub\n" + word));
+  CHECK_FALSE(is_stated("linuxcnc", "ON", "o<On> sub\nG0 X3\no<on> endsub\n" + word));
+  CHECK_FALSE(is_stated("linuxcnc", "O100", "o100 sub\nG0 X3\no100 endsub\n" + gcode_with("o100 call\n")));
+  const std::string siemens = gcode_with("CLAMPS\n") + "M30\n";
+  CHECK(is_stated("siemens", "CLAMPS", siemens));
+  CHECK_FALSE(is_stated("siemens", "CLAMPS", "%_N_MAIN_MPF\n" + siemens + "%_N_CLAMPS_SPF\nG91 X3\nM17\n"));
+  CHECK_FALSE(is_stated("siemens", "CLAMPS", siemens + "PROC CLAMPS(REAL A)\nG91 X3\nM17\n"));
+}
+
+TEST_CASE("CALL and RUN of FANUC TP are not parts of names") {
+  const auto left_alone = [](const std::string& statement, const std::string& name) {
+    const CallCase call{"fanuc_tp", "", "", tp_with};
+    return read_program(tp_with(statement + " ;\n"), "p", options_of(call, {name})).left_alone.size();
+  };
+  CHECK(left_alone("CALL RUNOUT", "OUT") > 0);
+  CHECK(left_alone("CALL RUNOUT", "RUNOUT") == 0);
+  CHECK(left_alone("RUN OUT", "OUT") == 0);
+}

@@ -118,10 +118,16 @@ const FoundG* find_own_motion(const SortedBlock& sorted) {
   return nullptr;
 }
 
-/// "O9001" of M98 P9001 and G65 P9001; empty if P has no plain number.
+bool has_m(const SortedBlock& sorted, std::initializer_list<int> codes) {
+  return std::ranges::any_of(
+      sorted.m, [&](const FoundM& m) { return std::ranges::find(codes, m.code) != codes.end(); });
+}
+
+/// "O9001" of M98 P9001 and G65 P9001; empty if P has no plain number, and for M97, which calls a block.
 std::string called_by_number(const Reading& r) {
   const Word* p = r.sorted.word('P');
-  return p != nullptr && p->literal ? fmt::format("O{:.0f}", p->value) : std::string();
+  const bool by_number = r.sorted.has(Action::call) || has_m(r.sorted, {98});
+  return by_number && p != nullptr && p->literal ? fmt::format("O{:.0f}", p->value) : std::string();
 }
 
 void read_own_motion(const Block& block, Reading& r, const FoundG& found) {
@@ -147,6 +153,12 @@ void check_reference(const Block& block, const Reading& r, const FoundG& referen
                 fmt::format("G{} is not allowed in a block with another motion", reference.word->value));
 }
 
+/// "G28 Z0 M98 P9001" moves, then calls.
+void move_and_call(const Block& block, Reading& r, const FoundG& machine) {
+  add_machine_move(block, r, machine);
+  if (r.sorted.has(MAction::call)) read_call(block, r, called_by_number(r));
+}
+
 /// Passes the axis words to the code that uses them.
 void apply_axis_words(const Block& block, Reading& r) {
   if (!has_other_codes(r.sorted)) {
@@ -155,12 +167,13 @@ void apply_axis_words(const Block& block, Reading& r) {
   }
   if (const FoundG* reference = r.sorted.find(Action::reference_move)) {
     check_reference(block, r, *reference);
-    return add_machine_move(block, r, *reference);
+    return move_and_call(block, r, *reference);
   }
-  if (const FoundG* machine = r.sorted.find(Action::machine_move))
-    return add_machine_move(block, r, *machine);
+  if (const FoundG* machine = r.sorted.find(Action::machine_move)) return move_and_call(block, r, *machine);
   if (const FoundG* own = find_own_motion(r.sorted)) return read_own_motion(block, r, *own);
-  if (r.sorted.has(MAction::call)) return read_call(block, r, called_by_number(r));
+  // The block moves before it calls. Its end is not known behind a call that stays.
+  if (r.sorted.has(MAction::call))
+    return read_call(block, r, has_words_of_motion(r) ? std::string() : called_by_number(r));
   if (!has_words_of_motion(r) || takes_axis_words(r)) return;
   if (const FoundG* dwell = r.sorted.find(Action::dwell)) {
     if (r.dialect.dwell_takes_axis_words) return;
@@ -175,11 +188,6 @@ void apply_axis_words(const Block& block, Reading& r) {
 void end_unknown_cutter(Reading& r) {
   if (r.sorted.has(Action::cutter) || r.sorted.has(Action::no_cutter))
     r.state.unknown_modes &= static_cast<std::uint16_t>(~unknown_cutter);
-}
-
-bool has_m(const SortedBlock& sorted, std::initializer_list<int> codes) {
-  return std::ranges::any_of(
-      sorted.m, [&](const FoundM& m) { return std::ranges::find(codes, m.code) != codes.end(); });
 }
 
 /// M3, M4 and M5. M13 and M14 of some controls are M3 and M4 with coolant.

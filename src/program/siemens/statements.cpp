@@ -111,8 +111,9 @@ void set_control_variables(const Block& block, Reading& r) {
   note_uncorrected(block, r, "a variable of the control is set");
 }
 
-/// "L700", and SPINDLE of CALL "SPINDLE" and EXTCALL("SPINDLE").
+/// "L700", and SPINDLE of CALL "SPINDLE" and EXTCALL("SPINDLE"). Empty beside words of a motion.
 std::string_view called_program(const Block& block, const Reading& r) {
+  if (std::any_of(block.words.begin(), block.words.end(), is_length_word)) return {};
   const std::string_view text = part(r.program.text, block.statement_text);
   const std::size_t name = std::find_if_not(text.begin(), text.end(), is_identifier_character) - text.begin();
   const std::string_view head = text.substr(0, name);

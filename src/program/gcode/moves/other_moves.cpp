@@ -109,7 +109,8 @@ std::string_view word_not_read(const Block& block, const Reading& r) {
 
 void read_call(const Block& block, Reading& r, std::string_view program) {
   r.variables.clear();
-  if (is_stated_harmless(r.program, r.options, block.line, program)) return;
+  const bool is_own = r.outline.own_programs.contains(upper_case(program));
+  if (!is_own && is_stated_harmless(r.program, r.options, block.line, program)) return;
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;

@@ -101,7 +101,8 @@ std::string_view displacement_text(const Reading& r) {
   if ((bits & data) != 0)
     return r.dialect.sinumerik_words ? "a variable or a measuring cycle has set the coordinates"
                                      : "G10 has set the work offset";
-  return (bits & shifted) != 0 ? "G52 shifts the coordinates" : "G92 has set the position";
+  if ((bits & shifted) == 0) return "G92 has set the position";
+  return r.dialect.sinumerik_words ? "G58 or G59 shifts the coordinates" : "G52 shifts the coordinates";
 }
 
 std::string_view unknown_mode_text(std::uint16_t unknown_modes) {

@@ -177,6 +177,7 @@ void apply_feed_and_tool(Reading& r) {
   const std::optional<LengthUnit> unit_before = r.state.unit;
   apply_unit(r);
   apply_feed_mode(r);
+  if (r.sorted.has(Action::call)) return;  // F, S and T of G65 are arguments
   apply_f(r, unit_before);
   apply_s(r);
   apply_tool(r);

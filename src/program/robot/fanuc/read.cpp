@@ -63,7 +63,7 @@ std::string_view shown(const TpReading& r, const RobotLine& line) {
 /// "SPINDLE_ON" of "CALLSPINDLE_ON(1,2)", and the name of a macro.
 std::string_view called_program(std::string_view action) {
   for (const std::string_view word : {"CALL", "RUN"})
-    if (action.starts_with(word)) action.remove_prefix(word.size());
+    if (action.starts_with(word)) return action.substr(word.size(), action.find('(') - word.size());
   return action.substr(0, action.find('('));
 }
 
