@@ -47,8 +47,15 @@ void Emitter::leave_far_pending_alone(const Move& move) {
 
 // Words before the first known position take its correction.
 void Emitter::give_to_pending() {
-  for (std::size_t p : pending_)
-    put(shifted(p, shift_mm(job_.program.moves[p], state_.correction)), Extent::whole);
+  for (std::size_t p : pending_) {
+    const Move& move = job_.program.moves[p];
+    const bool cuts = move.motion == Motion::feed;
+    if (cuts)
+      list(move,
+           "a feed move with a position that is not known: its words have the correction of the next known "
+           "one");
+    put(shifted(p, shift_mm(move, state_.correction)), cuts ? Extent::in_part : Extent::whole);
+  }
   pending_.clear();
 }
 
