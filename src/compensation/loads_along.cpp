@@ -155,7 +155,8 @@ std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* st
                                        place.at.directions}}};
   std::array<Waypoint, 1> at{place.at};
   add_causes(solver, solved, at);
-  return at[0].status == Status::converged ? std::optional(*at[0].causes) : std::nullopt;
+  const bool known = at[0].status == Status::converged && at[0].causes;
+  return known ? std::optional(*at[0].causes) : std::nullopt;
 }
 
 std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, double factor, int threads,

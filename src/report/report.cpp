@@ -29,6 +29,15 @@ void list_unsolved(const UnderOtherForce& other, const char* change, Capped<Rema
                                other.unsolved, places)});
 }
 
+void list_without_causes(const UnknownCauses& without, Capped<Remark>& all) {
+  if (without.places == 0) return;
+  list(all,
+       Remark{without.first_line,
+              fmt::format("the causes of the deviation are not known here ({} {} in all): with one of them "
+                          "alone the machine has no stable equilibrium",
+                          without.places, without.places == 1 ? "place" : "places")});
+}
+
 // A tilted tool whose tip is within the tolerance while its rim or flank is not.
 void list_tilted(const RunReport& report, Capped<Remark>& all) {
   for (const ToolReport& tool : report.tools_off) {
@@ -45,6 +54,7 @@ Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, co
   list(all, tally.force_notes());
   list(all, tally.direction_notes());
   list_tilted(report, all);
+  list_without_causes(report.without_causes, all);
   for (const Remark& warning : control_warnings(report.control, report.correction)) list(all, warning);
   return all;
 }
@@ -143,7 +153,9 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before);
-  if (context.facts.attribution && report.before) report.sources = sources(measures, context.machine);
+  if (context.facts.attribution && measures.superposition.samples() > 0)
+    report.sources = sources(measures, context.machine);
+  if (context.facts.attribution) report.without_causes = measures.without_causes;
   report.at_worst = measures.at_worst;
   if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
   report.common_shift = common_shift(context, measures);

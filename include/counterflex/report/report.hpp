@@ -159,6 +159,12 @@ struct Sources {
   DeviationStatistics superposition;
 };
 
+/// Places at which the causes are not known: with one of them alone the machine has no stable equilibrium.
+struct UnknownCauses {
+  std::size_t places = 0;
+  int first_line = 0;
+};
+
 /// The deviation under a force that is higher or lower by `force_change`. Places where the machine has no
 /// stable equilibrium are in `unsolved` alone.
 struct UnderOtherForce {
@@ -323,7 +329,8 @@ struct RunReport {
   std::optional<DeviationStatistics> before;  ///< none where a run failed before anything was solved
   std::optional<DeviationStatistics> after;   ///< model residual; none for `predict`, and like `before`
   std::optional<Sources> sources;             ///< with attribution
-  std::optional<SourcesAtWorst> at_worst;     ///< where `before` is largest
+  std::optional<SourcesAtWorst> at_worst;     ///< where `before` is largest, if the causes are known there
+  UnknownCauses without_causes;               ///< where they were asked for
   std::optional<Sensitivity> sensitivity;     ///< where a force acts
   /// Largest deviation of a feed move of the corrected program without the force.
   std::optional<Largest> air;

@@ -37,7 +37,9 @@ struct Measures {
   std::map<long, ToolTally> tools;  ///< by number
   DeviationTally preloads, fixture;
   DeviationTally without_force;
-  std::optional<SourcesAtWorst> at_worst;  ///< where `before` is largest
+  double worst_mm = -1;                    ///< the largest `before`
+  std::optional<SourcesAtWorst> at_worst;  ///< there, where the causes are known
+  UnknownCauses without_causes;
   Largest air, correction;
   double largest_N = 0, largest_Nm = 0;
   double path_mm = 0;

@@ -403,7 +403,7 @@ RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunT
   if (worst != nullptr && report.before && !report.at_worst)
     if (const auto causes = solve_causes(*worst, &*run.starts))
       report.at_worst = sources_at(worst->at, *causes);
-  if (report.facts.attribution)
+  if (report.facts.attribution && report.without_causes.places == 0)
     add_sensitivity(report, places, under(1 + force_change), under(1 - force_change));
   else if (report.sensitivity)
     add_sensitivity(report, places, under(1 + force_change), under(1 - force_change), under(0));

@@ -19,8 +19,10 @@ Pose reference(const ForwardPlace& place, const Stage& stage) {
 }
 
 // The deviation under `stage` of a command, where `before` is known.
-template <typename Take>  // (std::size_t index, const Vector6& deviation, ForwardAnswer&&)
-void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Take& take) {
+template <typename Take,      // (std::size_t index, const Vector6& deviation, ForwardAnswer&&)
+          typename Unsolved>  // (Waypoint&, Status)
+void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Take& take,
+                const Unsolved& unsolved) {
   std::vector<std::size_t> asked;
   std::vector<ForwardRequest> requests;
   for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
@@ -43,8 +45,8 @@ void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& st
     if (answers[k].status == Status::converged)
       take(asked[k], deviation(answers[k].X_MT, reference(at.places[asked[k]], stage)),
            std::move(answers[k]));
-    else if (w.status == Status::converged)
-      w.status = answers[k].status;
+    else
+      unsolved(w, answers[k].status);
   }
 }
 
@@ -70,20 +72,28 @@ void add_fixture(const Solved& at) {
 }  // namespace
 
 void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<Waypoint> waypoints) {
-  deviations({solver, places, waypoints}, &ForwardPlace::original, {},
-             [&](std::size_t i, const Vector6& d, ForwardAnswer&& answer) {
-               waypoints[i].before = d;
-               places[i].original.rho = std::move(answer.rho);
-             });
+  deviations(
+      {solver, places, waypoints}, &ForwardPlace::original, {},
+      [&](std::size_t i, const Vector6& d, ForwardAnswer&& answer) {
+        waypoints[i].before = d;
+        places[i].original.rho = std::move(answer.rho);
+      },
+      [](Waypoint& w, Status status) {
+        if (w.status == Status::converged) w.status = status;
+      });
 }
 
 void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::span<Waypoint> waypoints) {
   for (Waypoint& w : waypoints)
     if (knows_before(w)) w.causes.emplace();
   const Solved at{solver, places, waypoints};
+  // A machine with one cause alone may buckle where the real one does not: there no causes are known.
+  std::vector<bool> unsolved(waypoints.size());
   const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
-    deviations(at, command, stage,
-               [&](std::size_t i, const Vector6& d, ForwardAnswer&&) { (*waypoints[i].causes).*result = d; });
+    deviations(
+        at, command, stage,
+        [&](std::size_t i, const Vector6& d, ForwardAnswer&&) { (*waypoints[i].causes).*result = d; },
+        [&](const Waypoint& w, Status) { unsolved[static_cast<std::size_t>(&w - waypoints.data())] = true; });
   };
   add(&ForwardPlace::original, {.load = 0, .gravity = 0}, &Causes::geometry);
   add(&ForwardPlace::original, {.errors = 0, .gravity = 0}, &Causes::load);
@@ -102,6 +112,8 @@ void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::
     if (weight) c.gravity -= preloads;
     c.superposition = preloads + c.geometry + c.load + c.fixture + c.gravity;
   }
+  for (std::size_t i = 0; i < waypoints.size(); ++i)
+    if (unsolved[i]) waypoints[i].causes.reset();
 }
 
 }  // namespace counterflex

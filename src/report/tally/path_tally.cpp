@@ -50,10 +50,16 @@ bool keep_worst(double& largest_mm, WorstPlace& place, const Waypoint& w, const 
   return true;
 }
 
-void keep_at_worst(const Waypoint& w, const Causes& causes, std::optional<SourcesAtWorst>& worst) {
+void keep_at_worst(const Waypoint& w, Measures& measures) {
   const double size_mm = w.before.head<3>().norm() / mm;
-  if (worst && size_mm <= worst->before_mm.norm() + indistinct_mm) return;
-  worst = sources_at(w, causes);
+  if (measures.worst_mm >= 0 && size_mm <= measures.worst_mm + indistinct_mm) return;
+  measures.worst_mm = size_mm;
+  measures.at_worst.reset();
+  if (w.causes) measures.at_worst = sources_at(w, *w.causes);
+}
+
+void count_without_causes(const Waypoint& w, UnknownCauses& without) {
+  if (++without.places == 1) without.first_line = w.line;
 }
 
 DeviationParts parts_of(const Waypoint& w, const Causes& causes) {
@@ -243,7 +249,6 @@ void PathTally::finish_end() {
 void PathTally::measure_causes(const Waypoint& w, const Causes& causes, double weight) {
   for (const Cause& cause : all_causes) (m_.*cause.tally).add(sample(w, cause.of(causes), weight));
   m_.superposition.add(sample(w, causes.superposition, weight));
-  keep_at_worst(w, causes, m_.at_worst);
   m_.without_force.add(sample(w, causes.air, weight));
   keep(m_.air, causes.air.head<3>().norm(), w.line);
 }
@@ -257,7 +262,8 @@ void PathTally::measure_end(const End& end) {
   tally_of(end.facts.tool).before.add(end.facts.tool, w.before, w.tool_axis, w.line);
   if (OperationTally* tally = tally_of(end.operation))
     tally->before.add(banded(w, w.before, end.weight_there));
-  if (w.causes) measure_causes(w, *w.causes, end.weight);
+  keep_at_worst(w, m_);
+  w.causes ? measure_causes(w, *w.causes, end.weight) : count_without_causes(w, m_.without_causes);
   WorstRow& row = lines_.row(w.line);
   if (keep_worst(row.before_mm, row.at_before, w, w.before, end.operation) && w.causes)
     row.causes = parts_of(w, *w.causes);
