@@ -30,6 +30,31 @@ double in_plane(const Vector3& v, int normal) {
   return (v - v[normal] * Vector3::Unit(normal)).norm();
 }
 
+// In the plane of the arc, which is any plane if it goes through a point.
+double in_plane(const Vector3& v, const ArcMove& arc) {
+  const Vector3 normal = normal_of(arc);
+  return (v - v.dot(normal) * normal).norm();
+}
+
+// How the arc lies and turns otherwise than `wanted`; empty if it does not. A correction may tilt the plane
+// of three points: the path of such an arc is judged by its places.
+std::string difference_of_planes(const ArcMove& arc, const ArcMove& wanted) {
+  if (arc.through && wanted.through) {
+    const double cosine = std::clamp(normal_of(arc).dot(normal_of(wanted)), -1.0, 1.0);
+    if (cosine > 0) return {};
+    return fmt::format(
+        "the axis of this arc is {:.1f} degrees off that of the original, less than 90 are allowed",
+        std::acos(cosine) / deg);
+  }
+  if (arc.normal != wanted.normal)
+    return fmt::format("this arc lies in the plane {}, that of the original in {}", plane_of(arc),
+                       plane_of(wanted));
+  if (arc.clockwise == wanted.clockwise) return {};
+  return fmt::format("this arc goes {}, that of the original {}",
+                     arc.clockwise ? "clockwise" : "counter-clockwise",
+                     wanted.clockwise ? "clockwise" : "counter-clockwise");
+}
+
 // By how much the correction leaves the straight line between those at its ends, at eighths of an arc (m).
 double bend_of(const PlannedSegment& planned) {
   if (planned.arc.empty()) return 0;
@@ -101,14 +126,8 @@ class KindComparison {
     if (!same_motion || (found.arc && !original_.arc)) return fail_kind(found);
     if (!original_.arc) return;
     if (!found.arc) return compare_chord(found, jump);
-    const ArcMove &wanted = *original_.arc, &arc = *found.arc;
-    if (arc.normal != wanted.normal)
-      return fail(found, fmt::format("this arc lies in the plane {}, that of the original in {}",
-                                     plane_of(arc), plane_of(wanted)));
-    if (arc.clockwise != wanted.clockwise)
-      return fail(found, fmt::format("this arc goes {}, that of the original {}",
-                                     arc.clockwise ? "clockwise" : "counter-clockwise",
-                                     wanted.clockwise ? "clockwise" : "counter-clockwise"));
+    const std::string difference = difference_of_planes(*found.arc, *original_.arc);
+    if (!difference.empty()) return fail(found, difference);
     if (matched_.found.size() == 1)
       compare_one_arc(found);
     else if (original_.handling == Handling::group)
@@ -130,9 +149,7 @@ class KindComparison {
          fmt::format("this block is {}, that of the original is {}", name_of(found), name_of(original_)));
   }
 
-  double radius_mm() const {
-    return in_plane(original_.end_mm - original_.arc->centre_mm, original_.arc->normal);
-  }
+  double radius_mm() const { return in_plane(original_.end_mm - original_.arc->centre_mm, *original_.arc); }
 
   // A contour's arc that is divided by its height is one arc in the plane.
   void compare_contour_piece(const Move& found) {
@@ -163,7 +180,7 @@ class KindComparison {
 
   // A chord may replace a part of the arc from which it keeps within the tolerance.
   void compare_chord(const Move& found, bool may_be_jump) {
-    const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, original_.arc->normal);
+    const double radius = radius_mm(), chord = in_plane(found.end_mm - found.start_mm, *original_.arc);
     const double half = std::asin(std::min(1.0, chord / 2 / radius)), sagitta = radius * (1 - std::cos(half));
     const double room = tolerance_mm_ + roundings * rounding_mm_;
     const bool known = all_known(found.known_start) && all_known(original_.known_start);

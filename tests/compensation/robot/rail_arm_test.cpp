@@ -147,6 +147,39 @@ TEST_CASE("written targets of a KUKA program lead an independent arm on a rail t
   }
 }
 
+namespace {
+
+/// Half a circle in a vertical plane that is turned by `turn_deg` about Z.
+std::string vertical_circle(double turn_deg) {
+  const auto place = [&](double angle_deg) {
+    const double across = 20 * std::cos(angle_deg * deg);
+    return fmt::format("{{X {:.3f},Y {:.3f},Z {:.3f}", 40 + across * std::cos(turn_deg * deg),
+                       20 + across * std::sin(turn_deg * deg), -20 * std::sin(angle_deg * deg));
+  };
+  const std::string rest = ",A 0.0,B 0.0,C 10.0,E1 0.0}";
+  return "DEF part( )\n$BASE={X 1450.0,Y -45.0,Z 640.0,A 10.0,B 0.0,C 2.0}\n$VEL.CP=0.025\nPTP " + place(0) +
+         rest + "\nLIN " + place(0) + rest + " C_DIS\nCIRC " + place(45) + "}," + place(90) + rest +
+         " C_DIS\nCIRC " + place(135) + "}," + place(180) + rest + " C_DIS\nEND\n";
+}
+
+}  // namespace
+
+TEST_CASE("a circle through a point is corrected in any plane") {
+  const Machine machine = at_program_axes(rail_machine(errors, "E1"), {0});
+  for (const double turn_deg : {0.0, 45.0, 134.9, 135.0, 135.1, 225.0, 315.0}) {
+    CAPTURE(turn_deg);
+    const std::string text = vertical_circle(turn_deg);
+    Order order = rail_order(text, machine);
+    order.decimals = -1;
+    const Shop shop(order);
+    const std::string corrected = compensated(shop).text;
+    const std::regex point("CIRC (\\{X [^}]*,Z )-([0-9.]+)\\}");
+    REQUIRE(std::regex_search(corrected, point));
+    const std::string above = std::regex_replace(corrected, point, "CIRC $1$2}");
+    CHECK(verify(shop.job(), read_program(above, "above.src", shop.read), false).failure.has_value());
+  }
+}
+
 TEST_CASE(
     "a perfect rail that moves 850 mm with the base leaves the correction as it is, one with an error not") {
   const auto corrections = [](const RailErrors& of_arm, double rail_mm) {
