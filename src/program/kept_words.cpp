@@ -3,7 +3,9 @@
 #include <algorithm>
 #include <optional>
 #include <string_view>
+#include <utility>
 
+#include "counterflex/program/read_program.hpp"
 #include "program/dialect.hpp"
 #include "program/guard/guard_mark.hpp"
 #include "program/klartext/kept_words.hpp"
@@ -17,6 +19,7 @@
 #include "program/robot/ur/kept_words.hpp"
 #include "program/robot/ur/lex.hpp"
 #include "program/robot/yaskawa/kept_words.hpp"
+#include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 #include "program/write/kept_words.hpp"
 
@@ -60,8 +63,21 @@ std::string declared_kept_words(const Program& program, Span within, const std::
 }
 
 std::string line_kept_words(const Program& program, std::string_view line, std::string rest) {
+  if (program.dialect == klartext_name) return klartext_line_kept_words(rest);
   if (program.dialect != yaskawa_name || !is_jbi_counts(line)) return rest;
   return jbi_surplus(program.text, line);
+}
+
+void ActingWords::read(const Program& program, Span line) {
+  if (program.dialect == klartext_name)
+    words_ = klartext_pole_behind(part(program.text, line), std::move(words_));
+  else if (!is_robot_dialect(program.dialect))
+    follow_arc_word(program, line, words_);
+}
+
+std::string ActingWords::of(const Program& program, const Move& move) {
+  if (program.dialect == klartext_name) return needs_klartext_pole(program.text, move) ? words_ : "";
+  return is_robot_dialect(program.dialect) ? "" : take_arc_word(program, move, words_);
 }
 
 bool is_line_of_guard(const Program& program, std::size_t begin) {

@@ -10,7 +10,8 @@ namespace counterflex {
 
 /// The block without blanks and without the words of a move that are rewritten: N (of a split block the first
 /// piece has it), axes, centre, radius, heights of a cycle, the turns of an arc, G0 to G3 (the move has
-/// the motion), and the F of a G93 move.
+/// the motion), and the F of a G93 move. Of Klartext L, C and the like, DR and polar words are left out only
+/// where the move has the arc or the end that they give.
 ///
 /// Of a robot program: the statement without blanks, comment and the size of a zone, with its targets as they
 /// are in the text, without the numbers that correction changes. The statement of an arc is that of a line,
@@ -22,8 +23,24 @@ std::string kept_words(const Program& program, const Move& move);
 std::string declared_kept_words(const Program& program, Span within, const std::vector<Span>& numbers);
 
 /// The same of a line without moves; `rest` is the line without `Program::counts`. Counts of positions in a
-/// job of Yaskawa become their surplus over the positions in the text.
+/// job of Yaskawa become their surplus over the positions in the text. Klartext has no block numbers and
+/// nothing of a CC.
 std::string line_kept_words(const Program& program, std::string_view line, std::string rest);
+
+/// What earlier blocks give to moves that are not followed: the CC of an arc or of polar coordinates in
+/// Klartext, the G2 or G3 of an arc in G-code. It takes in the lines and moves of a program in the order of
+/// the text.
+class ActingWords {
+ public:
+  /// A line without a move.
+  void read(const Program& program, Span line);
+
+  /// The words that act in the next move. Empty for a move that is followed: its path is judged.
+  std::string of(const Program& program, const Move& move);
+
+ private:
+  std::string words_;
+};
 
 /// Whether the line at byte `begin` of the program's text is one of a guard, with its right mark.
 bool is_line_of_guard(const Program& program, std::size_t begin);

@@ -14,6 +14,10 @@ namespace {
 
 constexpr std::string_view byte_order_mark = "\xEF\xBB\xBF";
 
+bool is_klartext(const Program& window) {
+  return window.dialect == "heidenhain";
+}
+
 // A Sinumerik's MCALL with a drilling cycle. It is written again before holes.
 bool calls_modal_cycle(std::string_view line) {
   const auto skip = [&line](std::string_view characters) {
@@ -22,26 +26,6 @@ bool calls_modal_cycle(std::string_view line) {
   skip(" \t");
   if (line.starts_with('N') || line.starts_with('n')) line.remove_prefix(1), skip("0123456789"), skip(" \t");
   return modal_drilling_cycle(line).has_value();
-}
-
-// The line without its Klartext block number and without the surface of a drilling cycle, which goes along
-// with its holes. Nothing of a CC, which belongs to the arc behind it.
-std::string statement_of(const Program& program, std::string_view line, bool& sets_surface) {
-  if (program.dialect != "heidenhain") return std::string(line);
-  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
-  const std::size_t digits = line.starts_with('N') || line.starts_with('n') ? 1 : 0;
-  if (digits < line.size() && line[digits] >= '0' && line[digits] <= '9') line.remove_prefix(digits);
-  line.remove_prefix(std::min(line.find_first_not_of(" \t0123456789"), line.size()));
-  if (line.starts_with("CC")) return {};
-  std::string statement(line);
-  const std::size_t surface = statement.find("Q203"),
-                    equals = statement.find_first_not_of(" \t", surface + 4);
-  if (surface == std::string::npos || equals == std::string::npos || statement[equals] != '=')
-    return statement;
-  const std::size_t number = std::min(statement.find_first_not_of(" \t", equals + 1), statement.size());
-  sets_surface = true;
-  statement.erase(surface, std::min(statement.find_first_of(" \t;~", number), statement.size()) - surface);
-  return statement;
 }
 
 // The line from byte `begin` on without `spans`, of which `next` is the first that may be in the line. A span
@@ -68,10 +52,11 @@ bool touches(const std::vector<Span>& spans, std::size_t first, std::size_t last
   return false;
 }
 
-// The numbers of targets that are in other lines than their moves, in the order of the text.
+// The numbers of targets that are in other lines than their moves, in the order of the text. Of Klartext they
+// are the surfaces of drilling cycles.
 std::vector<Span> declared_numbers(const Program& window) {
   std::vector<Span> numbers;
-  if (!is_robot_dialect(window.dialect)) return numbers;
+  if (!is_robot_dialect(window.dialect) && !is_klartext(window)) return numbers;
   for (const Move& move : window.moves) {
     const auto add = [&](const PackedAxisWord& word) {
       if (word && (word->number.begin < move.block.begin || word->number.end > move.block.end))
@@ -108,6 +93,7 @@ std::string without_targets(const Program& window, const std::vector<Span>& decl
   const std::size_t first = next;
   const std::string rest = without(declared, window.text, line.text, line.begin, next);
   if (rest.size() == line.text.size()) return {};
+  if (is_klartext(window)) return line_kept_words(window, line.text, rest);
   const auto at = [&](std::size_t i) {
     return declared.begin() + static_cast<std::ptrdiff_t>(std::min(i, declared.size()));
   };
@@ -157,7 +143,8 @@ bool are_equal(const OtherLine& a, const OtherLine& b) {
 
 void OtherLines::end_statement() {
   std::vector<std::string> texts;
-  for (const OtherLine& line : statement_) texts.push_back(line.text);
+  for (const OtherLine& line : statement_)
+    texts.push_back(line.without_targets.empty() ? line.text : line.without_targets);
   if (!sets_surface_ || texts != last_surface_) {
     count_ += statement_.size();
     lines.insert(lines.end(), statement_.begin(), statement_.end());
@@ -186,14 +173,14 @@ bool OtherLines::is_of_guard(const Program& window, std::size_t line_begin) {
   return true;
 }
 
-std::vector<std::size_t> OtherLines::add(const Program& window) {
-  std::vector<std::size_t> counts(window.moves.size());
+std::vector<PlaceAmongLines> OtherLines::add(const Program& window) {
+  std::vector<PlaceAmongLines> places(window.moves.size());
   const std::vector<std::size_t> order = in_text_order(window);
   std::size_t next_move = 0;
   const std::string_view text = window.text;
   const std::vector<Span> declared = declared_numbers(window);
   std::size_t next_count = 0, next_number = 0;
-  const bool klartext = window.dialect == "heidenhain", siemens = window.dialect == "siemens";
+  const bool klartext = is_klartext(window), siemens = window.dialect == "siemens";
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
     const std::size_t end = std::min(text.find('\n', begin), text.size());
     const auto [line, line_begin] = text_line(text, begin, end, lines_before_ == 0);
@@ -203,7 +190,7 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
       const Move& move = window.moves[order[next_move]];
       end_calls(move.called && !move.called->modal.empty());
       if (guard_ == Guard::inside || move.motion == Motion::feed || move.cycle) guard_ = Guard::behind;
-      counts[order[next_move++]] = count_;
+      places[order[next_move++]] = {count_, acting_.of(window, move)};
     }
     if (moves) {
       end_statement();
@@ -216,14 +203,14 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     const bool calls = siemens && calls_modal_cycle(line);
     if (is_of_guard(window, line_begin)) continue;
+    acting_.read(window, {line_begin, line_begin + line.size()});
     const std::size_t first_count = next_count;
     std::string counted = without(window.counts, window.text, line, line_begin, next_count);
     // A target of moves may have lines of its own.
     const bool of_target = counted.find_first_not_of(" \t") == std::string::npos &&
                            touches(window.counts, first_count, next_count, line, line_begin);
     if (of_target) continue;
-    counted = line_kept_words(window, line, std::move(counted));
-    std::string statement = statement_of(window, counted, sets_surface_);
+    std::string statement = line_kept_words(window, line, std::move(counted));
     if (is_header(statement) || (klartext && statement.empty())) continue;
     if (guard_ == Guard::inside) guard_ = Guard::behind;
     if (calls || !waiting_.empty()) {
@@ -232,12 +219,14 @@ std::vector<std::size_t> OtherLines::add(const Program& window) {
     }
     const bool ends = !klartext || !continues(statement);
     statement_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(statement)});
-    statement_.back().without_targets = without_targets(window, declared, {line, line_begin}, next_number);
+    OtherLine& added = statement_.back();
+    added.without_targets = without_targets(window, declared, {line, line_begin}, next_number);
+    sets_surface_ = sets_surface_ || (klartext && !added.without_targets.empty());
     if (ends) end_statement();
   }
   end_statement();
   end_calls(false);
-  return counts;
+  return places;
 }
 
 const CorrectedMove* CorrectedMoves::at(std::size_t index) {
@@ -267,10 +256,11 @@ bool CorrectedMoves::read_on() {
 }
 
 void CorrectedMoves::add(const Program& window) {
-  const std::vector<std::size_t> before = other_lines_.add(window);
-  moves_.reserve(moves_.size() + before.size());
-  for (std::size_t m = 0; m < before.size(); ++m)
-    moves_.push_back({&window, &window.moves[m], before[m], kept_words(window, window.moves[m])});
+  const std::vector<PlaceAmongLines> places = other_lines_.add(window);
+  moves_.reserve(moves_.size() + places.size());
+  for (std::size_t m = 0; m < places.size(); ++m)
+    moves_.push_back({&window, &window.moves[m], places[m].others,
+                      kept_words(window, window.moves[m]) + places[m].acting});
 }
 
 }  // namespace counterflex

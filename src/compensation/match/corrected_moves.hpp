@@ -6,6 +6,7 @@
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
+#include "counterflex/program/kept_words.hpp"
 
 namespace counterflex {
 
@@ -20,16 +21,21 @@ struct OtherLine {
 
 bool are_equal(const OtherLine& a, const OtherLine& b);
 
+/// Where a move is among the lines without a move, from the program's beginning on.
+struct PlaceAmongLines {
+  std::size_t others = 0;  ///< lines without a move before it
+  std::string acting{};    ///< `ActingWords` of the move
+};
+
 /// The lines without a move of a program that is read in windows, the header and guards aside, and an MCALL
-/// of a Sinumerik if the next move is one of its holes: the hole compares it. Of statements that set the
-/// surface of Klartext's drilling cycles, and differ in that alone, the first one counts: the others are
+/// of a Sinumerik if the next move is one of its holes: the hole compares it. Of statements of Klartext that
+/// set the surface of a hole that is judged, and differ in that alone, the first one counts: the others are
 /// judged by their holes. An inserted block is beside the block that it belongs to: both have the same number
 /// of such lines before them.
 class OtherLines {
  public:
-  /// Takes in the next window; by move the number of lines without a move before it, from the program's
-  /// beginning on.
-  std::vector<std::size_t> add(const Program& window);
+  /// Takes in the next window; the places of its moves.
+  std::vector<PlaceAmongLines> add(const Program& window);
 
   std::deque<OtherLine> lines{};  ///< that were not compared yet
 
@@ -49,6 +55,7 @@ class OtherLines {
   std::vector<WaitingLine> waiting_{};       // for the next move, from an MCALL on
   bool sets_surface_ = false;                // it
   std::vector<std::string> last_surface_{};  // the last one that has
+  ActingWords acting_{};
   Guard guard_ = Guard::before;
   int lines_before_ = 0;   // of the text, before the window
   std::size_t count_ = 0;  // without a move
@@ -58,8 +65,8 @@ class OtherLines {
 struct CorrectedMove {
   const Program* program;
   const Move* move;
-  std::size_t others;  ///< lines without a move before it, from the program's beginning on
-  std::string words;   ///< `kept_words`
+  std::size_t others;  ///< as in PlaceAmongLines
+  std::string words;   ///< `kept_words`, and what acts besides
 };
 
 class CorrectedMoves {

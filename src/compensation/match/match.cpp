@@ -72,15 +72,16 @@ bool ends_elsewhere(const MatchedMoves& matched) {
 }
 
 /// Matches move `m` of the window and adds its drafts. Returns the failure if it has no counterpart.
-std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t m, std::size_t others,
-                                  MoveFinder& finder, CorrectedMoves& found, MatchState& state) {
+std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t m,
+                                  const PlaceAmongLines& place, MoveFinder& finder, CorrectedMoves& found,
+                                  MatchState& state) {
   const Move& original = job.program.moves[m];
   const std::vector<Segment>& segments = job.path.segments;
   std::optional<std::size_t> segment;
   if (state.next_segment < segments.size() && segments[state.next_segment].move == m)
     segment = state.next_segment++;
-  const MatchedMoves matched = finder.find(m, segment, others);
-  if (matched.found.empty()) return not_found(original, others, found, state.last_line);
+  const MatchedMoves matched = finder.find(m, segment, place);
+  if (matched.found.empty()) return not_found(original, place.others, found, state.last_line);
   if (auto failure = frame_failure(job, matched)) return failure;
   if (auto failure = kind_failure(job, plan, matched)) return failure;
   if (auto failure = shift_failure(job, m, matched, state.shifts)) return failure;
@@ -111,11 +112,11 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
 
 Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, CorrectedMoves& found) {
   Matching result;
-  const std::vector<std::size_t> others = lines.add(job.program);
+  const std::vector<PlaceAmongLines> places = lines.add(job.program);
   MoveFinder finder(job, plan, found);
   MatchState state;
   for (std::size_t m = 0; m < job.program.moves.size() && !result.failure; ++m)
-    result.failure = match_move(job, plan, m, others[m], finder, found, state);
+    result.failure = match_move(job, plan, m, places[m], finder, found, state);
   if (!result.failure) result.failure = state.zone.smaller;
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
   result.changed_without_piece = state.changed_without_piece;

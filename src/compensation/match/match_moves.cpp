@@ -135,11 +135,12 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
   return best;
 }
 
-MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment, std::size_t others) {
+MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
+                              const PlaceAmongLines& place) {
   const Move& original = job_.program.moves[m];
-  MatchedMoves matched{original, segment, {}, kept_words(job_.program, original)};
+  MatchedMoves matched{original, segment, {}, kept_words(job_.program, original) + place.acting};
   const CorrectedMove* first = found_.at(0);
-  if (first == nullptr || first->others != others) return matched;
+  if (first == nullptr || first->others != place.others) return matched;
   if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))
     shift_mm_ = first->move->start_mm - original.start_mm;
   if (frame_ != original.frame) planned_shift_mm_.reset(), shift_mm_.reset();
@@ -147,7 +148,7 @@ MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
   if (m + 1 < job_.program.moves.size()) next_number_ = job_.program.moves[m + 1].block_number;
   if (next_number_ == original.block_number || job_.program.dialect == "heidenhain") next_number_.reset();
   const std::size_t most = most_moves(original, segment.has_value());
-  matched.found = found_.first(most == 1 ? 1 : count(matched, most, others));
+  matched.found = found_.first(most == 1 ? 1 : count(matched, most, place.others));
   if (matched.found.empty()) return matched;
   planned_shift_mm_ = planned_shift_mm(original, segment);
   frame_ = original.frame;

@@ -16,7 +16,7 @@ struct MatchedMoves {
   const Move& original;
   std::optional<std::size_t> segment;
   std::span<const CorrectedMove> found;  ///< the last one holds the block of the original, or its last piece
-  std::string words;                     ///< `kept_words` of the original
+  std::string words;                     ///< of the original, as CorrectedMove::words
 
   const Move& first() const { return *found.front().move; }
   const Move& last() const { return *found.back().move; }
@@ -38,9 +38,9 @@ class MoveFinder {
   MoveFinder(const Job& job, const Plan& plan, CorrectedMoves& found)
       : job_(job), plan_(plan), found_(found) {}
 
-  /// Those of move `m`, with `others` lines without a move before it; `found` is empty if no move matches.
-  /// They begin at the first move that was not dropped, and are valid until more is read or dropped.
-  MatchedMoves find(std::size_t m, std::optional<std::size_t> segment, std::size_t others);
+  /// Those of move `m`, which is at `place`; `found` is empty if no move matches. They begin at the first
+  /// move that was not dropped, and are valid until more is read or dropped.
+  MatchedMoves find(std::size_t m, std::optional<std::size_t> segment, const PlaceAmongLines& place);
 
  private:
   std::size_t count(const MatchedMoves& matched, std::size_t most, std::size_t others);

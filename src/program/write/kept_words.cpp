@@ -5,7 +5,10 @@
 #include <string_view>
 #include <vector>
 
+#include "counterflex/files/input_error.hpp"
+#include "program/expand/expand.hpp"
 #include "program/text/scanner.hpp"
+#include "program/write/block.hpp"
 
 namespace counterflex {
 namespace {
@@ -95,6 +98,26 @@ std::string without_motion(const std::string& text, const std::vector<std::strin
   return kept;
 }
 
+// "G2" or "G3", the last one of the block; empty without them.
+std::string arc_word_of(const Block& block) {
+  std::string word;
+  for (const Word& w : block.words)
+    if (is_motion(w)) word = w.value == 2 ? "G2" : w.value == 3 ? "G3" : "";
+  return word;
+}
+
+// Empty where the text is not G-code, as behind the end of the program.
+std::optional<Block> block_at(const Program& program, Span line) {
+  Block block;
+  block.span = line;
+  try {
+    lex(program.text, program.file, *find_dialect(program.dialect), block);
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+  return block;
+}
+
 }  // namespace
 
 std::string without_rewritten_words(const Program& program, const Move& move, bool klartext) {
@@ -114,6 +137,29 @@ std::string without_rewritten_words(const Program& program, const Move& move, bo
   }
   keep(move.block.end);
   return text;
+}
+
+void follow_arc_word(const Program& program, Span line, std::string& word) {
+  const bool may_set = part(program.text, line).find_first_of("Gg") != std::string_view::npos;
+  if ((word.empty() && !may_set) || is_unused(program.expansion, line.begin)) return;
+  const std::optional<Block> block = block_at(program, line);
+  if (block && ends_motion(*block, *find_dialect(program.dialect))) word = arc_word_of(*block);
+}
+
+std::string take_arc_word(const Program& program, const Move& move, std::string& word) {
+  const bool followed = move.handling != Handling::held && !any_axis(move.fixed);
+  if (move.arc || followed) {
+    word = !move.arc ? "" : move.arc->clockwise ? "G2" : "G3";
+    return {};
+  }
+  const std::optional<Block> block = block_at(program, move.block);
+  if (!block) return {};
+  const Dialect& dialect = *find_dialect(program.dialect);
+  const bool states = std::any_of(block->words.begin(), block->words.end(),
+                                  [&](const Word& w) { return is_motion_word(w, dialect); });
+  const std::string acting = states ? arc_word_of(*block) : word;
+  if (ends_motion(*block, dialect)) word = acting;
+  return move.motion == Motion::feed && !move.cycle ? acting : "";
 }
 
 std::string gcode_kept_words(const Program& program, const Move& move) {

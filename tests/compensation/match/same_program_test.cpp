@@ -240,3 +240,77 @@ TEST_CASE(
   CHECK_FALSE(refused("; the next\n"));
   CHECK(refused("Q201 = -20\n"));
 }
+
+namespace {
+
+/// What refuses `changed` as the corrected form of the Klartext program `original`; empty: it is accepted.
+std::string klartext_refusal(const std::string& original, const std::string& changed) {
+  const Shop shop({.machine = rigid_gantry("0, 0, 0"), .text = original});
+  const auto failure = verify(shop.job(), read_program(changed, "changed.h", {}), false).failure;
+  return failure ? failure->what : "";
+}
+
+/// `text` with the last `what` in the place of which `by` is.
+std::string with(std::string text, const std::string& what, const std::string& by) {
+  const std::size_t at = text.rfind(what);
+  REQUIRE(at != std::string::npos);
+  return text.replace(at, what.size(), by);
+}
+
+constexpr const char* words_differ = "the words besides coordinates are not those of the original's block";
+
+}  // namespace
+
+TEST_CASE("a surface of Klartext that no judged hole has stays as it is, and so does its definition") {
+  const std::string pocket = "CYCL DEF 252 Q223=30 Q201=-5 Q203=-10 Q204=50\n";
+  const std::string original = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nQ203 = +0\nL X+0 Y+0 Z+50 R0 FMAX\n" +
+                               pocket + "L X+10 Y+5 FMAX M99\n" + with(pocket, "-10", "+0") +
+                               "L X+20 FMAX M99\nEND PGM A MM\n";
+  CHECK(klartext_refusal(original, original).empty());
+  for (const auto& [what, by] : {std::pair("Q203=-10", "Q203=-40"), std::pair("Q203=+0", "Q203=-1"),
+                                 std::pair("Q203 = +0", "Q203 = -30")}) {
+    CAPTURE(what);
+    CHECK(klartext_refusal(original, with(original, what, by)).find("this line differs") !=
+          std::string::npos);
+  }
+  CHECK_FALSE(klartext_refusal(original, with(original, with(pocket, "-10", "+0"), "")).empty());
+}
+
+TEST_CASE("blocks of Klartext that are not followed keep their CC, polar words, sense and kind of path") {
+  const std::string original =
+      "0 BEGIN PGM A MM\n1 TOOL CALL 1 Z S1000 F600\n2 L Z+0 M91 FMAX\n3 CC X+50 Y+50\n4 LP PR+Q1 PA+45 "
+      "FMAX\n"
+      "5 CP PA+Q3 DR-\n6 CC X+55 Y+50\n7 C X+Q4 Y+20 DR-\n8 CR X+Q4 Y+20 R+15 DR-\n9 L X+0 Y+0 Z+20 FMAX\n"
+      "10 END PGM A MM\n";
+  CHECK(klartext_refusal(original, original).empty());
+  for (const auto& [what, by] :
+       {std::pair("CC X+50", "CC X+90"), std::pair("CC X+55", "CC X+54"), std::pair("PA+45", "PA+90"),
+        std::pair("PR+Q1", "PR+Q2"), std::pair("LP PR", "L PR"), std::pair("PA+Q3 DR-", "PA+Q3 DR+"),
+        std::pair("Y+20 DR-", "Y+20 DR+"), std::pair("R+15 DR-", "R+15 DR+"), std::pair("C X+Q4", "CR X+Q4"),
+        std::pair("3 CC X+50 Y+50\n", "")}) {
+    CAPTURE(what);
+    CHECK(klartext_refusal(original, with(original, what, by)) == words_differ);
+  }
+}
+
+TEST_CASE("an arc that is not followed keeps its sense, also where an earlier block gives it") {
+  const auto program = [](const std::string& arcs) {
+    return "G21 G90 G17 G54\nG0 X0 Y0 Z0\nG1 X0 Y0 F100\n" + arcs + "M30\n";
+  };
+  const auto refused = [&](const std::string& arcs, const std::string& original) {
+    const std::string text = refusal(program(arcs), program(original));
+    return text.substr(std::min(text.find(": "), text.size()));
+  };
+  const std::string stated = "G2 X#102 Y15 I5\n", modal = "G2 X#102 Y15 I5\nX#103 Y20 I5\n";
+  const std::string differs = std::string(": ") + words_differ;
+  CHECK(refused(stated, stated).empty());
+  CHECK(refused("G3 X#102 Y15 I5\n", stated) == differs);
+  CHECK(refused(with(modal, "X#103", "G2 X#103"), modal).empty());
+  CHECK(refused(with(modal, "X#103", "G3 X#103"), modal) == differs);
+  // Behind chords the arc has to be stated again.
+  const std::string arc = "G2 X1 Y1 I1 J0\n",
+                    chords = "G1 X0.0761 Y0.3827\nX0.2929 Y0.7071\nX0.6173 Y0.9239\nX1 Y1\n",
+                    behind = "(next)\nX#102 Y15 I5\n";
+  CHECK(refused(chords + with(behind, "X", "G2 X"), arc + behind) == refused(chords, arc));
+  CHECK(refused(chords + with(behind, "X", "G3 X"), arc + behind) == differs);
+}
