@@ -80,6 +80,20 @@ std::string ActingWords::of(const Program& program, const Move& move) {
   return is_robot_dialect(program.dialect) ? "" : take_arc_word(program, move, words_);
 }
 
+PositionWords::PositionWords(const Program& program) {
+  if (program.dialect == yaskawa_name) job_ = std::make_unique<const JbiPositionWords>(program);
+}
+
+PositionWords::~PositionWords() = default;
+
+std::string PositionWords::of(const Move& move) const {
+  return job_ ? job_->of(move.block, !target_numbers(move).empty()) : "";
+}
+
+std::string PositionWords::of(Span line) const {
+  return job_ ? job_->of(line, false) : "";
+}
+
 bool is_line_of_guard(const Program& program, std::size_t begin) {
   const std::string_view text = program.text;
   if (program.dialect == tp_name) return is_tp_guard_line(text, begin);

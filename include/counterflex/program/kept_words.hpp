@@ -1,5 +1,6 @@
 #pragma once
 /// What of a block correction never changes.
+#include <memory>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -40,6 +41,26 @@ class ActingWords {
 
  private:
   std::string words_;
+};
+
+class JbiPositionWords;
+
+/// The positions of the statements of a Yaskawa job. Insertion changes their numbers: their values and the
+/// pseudo instructions above them (RCONF, TOOL, USER, POSTYPE) take the place of these. Programs of other
+/// languages have none.
+class PositionWords {
+ public:
+  /// `program` must outlive them.
+  explicit PositionWords(const Program& program);
+  ~PositionWords();
+
+  /// Of a statement. Without the values of the target of a move that is followed, and of the point inside of
+  /// its circle: these are judged.
+  std::string of(const Move& move) const;
+  std::string of(Span line) const;
+
+ private:
+  std::unique_ptr<const JbiPositionWords> job_;  // null: another language
 };
 
 /// Whether the line at byte `begin` of the program's text is one of a guard, with its right mark.

@@ -179,6 +179,7 @@ std::vector<PlaceAmongLines> OtherLines::add(const Program& window) {
   std::size_t next_move = 0;
   const std::string_view text = window.text;
   const std::vector<Span> declared = declared_numbers(window);
+  const PositionWords positions(window);
   std::size_t next_count = 0, next_number = 0;
   const bool klartext = is_klartext(window), siemens = window.dialect == "siemens";
   for (std::size_t begin = 0; begin < text.size(); ++lines_before_) {
@@ -190,7 +191,7 @@ std::vector<PlaceAmongLines> OtherLines::add(const Program& window) {
       const Move& move = window.moves[order[next_move]];
       end_calls(move.called && !move.called->modal.empty());
       if (guard_ == Guard::inside || move.motion == Motion::feed || move.cycle) guard_ = Guard::behind;
-      places[order[next_move++]] = {count_, acting_.of(window, move)};
+      places[order[next_move++]] = {count_, acting_.of(window, move) + positions.of(move)};
     }
     if (moves) {
       end_statement();
@@ -203,14 +204,15 @@ std::vector<PlaceAmongLines> OtherLines::add(const Program& window) {
     }
     const bool calls = siemens && calls_modal_cycle(line);
     if (is_of_guard(window, line_begin)) continue;
-    acting_.read(window, {line_begin, line_begin + line.size()});
+    const Span span{line_begin, line_begin + line.size()};
+    acting_.read(window, span);
     const std::size_t first_count = next_count;
     std::string counted = without(window.counts, window.text, line, line_begin, next_count);
     // A target of moves may have lines of its own.
     const bool of_target = counted.find_first_not_of(" \t") == std::string::npos &&
                            touches(window.counts, first_count, next_count, line, line_begin);
     if (of_target) continue;
-    std::string statement = line_kept_words(window, line, std::move(counted));
+    std::string statement = line_kept_words(window, line, std::move(counted)) + positions.of(span);
     if (is_header(statement) || (klartext && statement.empty())) continue;
     if (guard_ == Guard::inside) guard_ = Guard::behind;
     if (calls || !waiting_.empty()) {

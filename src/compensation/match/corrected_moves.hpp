@@ -24,7 +24,7 @@ bool are_equal(const OtherLine& a, const OtherLine& b);
 /// Where a move is among the lines without a move, from the program's beginning on.
 struct PlaceAmongLines {
   std::size_t others = 0;  ///< lines without a move before it
-  std::string acting{};    ///< `ActingWords` of the move
+  std::string acting{};    ///< `ActingWords` and `PositionWords` of the move
 };
 
 /// The lines without a move of a program that is read in windows, the header and guards aside, and an MCALL

@@ -91,3 +91,60 @@ TEST_CASE("configurations of two positions must not be exchanged") {
   CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0", "RCONF 1,1,0")) != "");
   CHECK(failure_of_job(shop, replaced(text, "RCONF 1,0,0,0", "RCONF 0,0,1,0")) != "");
 }
+
+namespace {
+
+std::string line_at(const std::string& text, const std::string& begin) {
+  const std::size_t at = text.find("\n" + begin) + 1;
+  REQUIRE(at > 0);
+  return text.substr(at, text.find('\n', at) + 1 - at);
+}
+
+/// `text` with the line that begins with `line` before the one that begins with `before`.
+std::string moved(const std::string& text, const std::string& line, const std::string& before) {
+  const std::string whole = line_at(text, line);
+  std::string rest = replaced(text, whole, "");
+  return rest.insert(rest.find("\n" + before) + 1, whole);
+}
+
+}  // namespace
+
+TEST_CASE("steps to pulses must not be exchanged, and their values must not change") {
+  std::string source = replaced(jbi_text(), "NPOS 8,8", "NPOS 10,8");
+  source = replaced(source,
+                    "BC00000=", "C00008=1000,2000,3000,0,-4000,0\nC00009=1000,9000,3000,0,-4000,0\nBC00000=");
+  source = replaced(source, "MOVJ P00100", "MOVJ C00008 VJ=25.00\nMOVJ C00009 VJ=25.00\nMOVJ P00100");
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  CHECK(failure_of_job(shop, text) == "");
+  const std::regex steps("(\nMOVJ C[0-9]+)( VJ=25.00)(\nMOVJ C[0-9]+)( VJ=25.00\nMOVJ)");
+  REQUIRE(std::regex_search(text, steps));
+  CHECK(failure_of_job(shop, std::regex_replace(text, steps, "$3$2$1$4")) != "");
+  CHECK(failure_of_job(shop, std::regex_replace(text, steps, "$1$2$1$4")) != "");
+  CHECK(failure_of_job(shop, replaced(text, "=1000,9000", "=1000,9100")) != "");
+}
+
+TEST_CASE("a position must not be moved under other pseudo instructions") {
+  std::string source = jbi_text();
+  source.insert(source.find("C00003="), "///RCONF 0,0,0,0,0,0,0,0\n");
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  CHECK(failure_of_job(shop, text) == "");
+  for (const char* place : {"///RCONF 1", "///POSTYPE PULSE"}) {
+    CAPTURE(place);
+    CHECK(failure_of_job(shop, moved(text, "C00000=", place)) != "");
+  }
+}
+
+TEST_CASE("a step in a condition keeps the values of its position, which another step corrects") {
+  const std::string source = replaced(jbi_text(), "MOVJ P00100",
+                                      "IFTHENEXP B001=1\n\tMOVJ C00007 BC00007 VJ=25.00\nENDIF\nMOVJ P00100");
+  const Shop shop(jbi_order(source));
+  const std::string text = compensated(shop).text;
+  CHECK(failure_of_job(shop, text) == "");
+  const std::regex step("(IFTHENEXP B001=1\n\tMOVJ )(C[0-9]+)");
+  std::smatch found;
+  REQUIRE(std::regex_search(text, found, step));
+  CHECK(line_at(text, found[2].str() + "=").ends_with("=100.000,120.000,30.000,5.0000,0.0000,20.0000\n"));
+  CHECK(failure_of_job(shop, std::regex_replace(text, step, "$1C00001")) != "");
+}

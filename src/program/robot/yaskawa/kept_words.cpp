@@ -3,10 +3,12 @@
 #include <algorithm>
 #include <array>
 #include <cstdlib>
+#include <set>
 #include <string_view>
 
 #include "program/robot/kept_words.hpp"
 #include "program/robot/yaskawa/lex.hpp"
+#include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -49,6 +51,40 @@ std::string step_kept_words(std::string_view statement, bool is_followed) {
 std::string jbi_kept_words(const Program& program, const Move& move) {
   return step_kept_words(statement_without_comment(program, move, jbi_comment),
                          !target_numbers(move).empty());
+}
+
+JbiPositionWords::JbiPositionWords(const Program& program) : source_(jbi_source(program.file, program.text)) {
+  for (const std::vector<Span>& list : source_.layout.conditions) {
+    std::set<std::string> lines;  // their order has no meaning
+    for (const Span line : list) lines.insert(without_spaces(part(program.text, line)));
+    std::string& text = conditions_.emplace_back();
+    for (const std::string& line : lines) text += line;
+  }
+  for (const Move& move : program.moves)
+    if (const std::vector<Span> numbers = auxiliary_numbers(move); !numbers.empty()) {
+      const std::size_t newline = program.text.rfind('\n', numbers.front().begin);
+      auxiliary_.push_back(newline == std::string::npos ? 0 : newline + 1);
+    }
+  std::sort(auxiliary_.begin(), auxiliary_.end());
+}
+
+bool JbiPositionWords::is_auxiliary(const JbiPosition& position) const {
+  return std::binary_search(auxiliary_.begin(), auxiliary_.end(), position.line_begin);
+}
+
+std::string JbiPositionWords::of(Span statement, bool is_followed) const {
+  std::string words;
+  if (statement.begin < source_.job.positions.end) return words;
+  for (const JbiName& name : jbi_names(source_.text, jbi_line_at(source_.text, statement.begin).code)) {
+    const std::size_t i = source_.index_of(name);
+    if (i == source_.job.positions.list.size()) continue;  // a variable that the job does not have
+    const JbiPosition& position = source_.job.positions.list[i];
+    words += ' ';
+    if (!is_followed && !is_auxiliary(position))
+      words += without_spaces(part(source_.text, jbi_values(source_.text, position.line_begin)->text));
+    words += conditions_[source_.layout.condition_of[i]];
+  }
+  return words;
 }
 
 bool is_jbi_counts(std::string_view line) {
