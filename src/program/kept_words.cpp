@@ -8,6 +8,7 @@
 #include "counterflex/program/read_program.hpp"
 #include "program/dialect.hpp"
 #include "program/guard/guard_mark.hpp"
+#include "program/guard/guard_text.hpp"
 #include "program/klartext/kept_words.hpp"
 #include "program/robot/apt/lex.hpp"
 #include "program/robot/fanuc/guard.hpp"
@@ -94,13 +95,25 @@ std::string PositionWords::of(Span line) const {
   return job_ ? job_->of(line, false) : "";
 }
 
-bool is_line_of_guard(const Program& program, std::size_t begin) {
+std::optional<std::string> line_of_guard(const Program& program, std::size_t begin) {
   const std::string_view text = program.text;
-  if (program.dialect == tp_name) return is_tp_guard_line(text, begin);
   std::string_view line = text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
-  if (program.dialect == klartext_name)  // its number changes
+  const bool tp = program.dialect == tp_name;
+  if (tp) line.remove_prefix(std::min(line.find(':'), line.size()));
+  if (program.dialect == klartext_name)
     line.remove_prefix(std::min(line.find_first_not_of(" 0123456789"), line.size()));
-  return is_guard_line(line);
+  if (!(tp ? is_tp_guard_line(text, begin) : is_guard_line(line))) return std::nullopt;
+  return std::string(line.substr(0, line.find_last_not_of(" \t\r") + 1));
+}
+
+std::vector<std::string> lines_of_guard(const std::string& dialect, const Guard& guard) {
+  Program program;
+  program.dialect = dialect;
+  program.text = guard_text(dialect, guard, "\n");
+  std::vector<std::string> lines;
+  for (std::size_t begin = 0; begin < program.text.size(); begin = program.text.find('\n', begin) + 1)
+    if (auto line = line_of_guard(program, begin)) lines.push_back(std::move(*line));
+  return lines;
 }
 
 bool are_alike(const std::string& a, const std::string& b) {

@@ -1,10 +1,12 @@
 #pragma once
 /// What of a block correction never changes.
 #include <memory>
+#include <optional>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include "counterflex/program/guard.hpp"
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -63,8 +65,12 @@ class PositionWords {
   std::unique_ptr<const JbiPositionWords> job_;  // null: another language
 };
 
-/// Whether the line at byte `begin` of the program's text is one of a guard, with its right mark.
-bool is_line_of_guard(const Program& program, std::size_t begin);
+/// The line at byte `begin` of the program's text without its number, if it is one of a guard, with its right
+/// mark.
+std::optional<std::string> line_of_guard(const Program& program, std::size_t begin);
+
+/// All such lines of `guard`, as they are written.
+std::vector<std::string> lines_of_guard(const std::string& dialect, const Guard& guard);
 
 /// Whether the kept words of two moves are of one statement. A line may be a chord of an arc.
 bool are_alike(const std::string& a, const std::string& b);

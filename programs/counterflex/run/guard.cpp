@@ -142,6 +142,14 @@ std::optional<double> window_of(const Run& run, std::optional<long> tool,
   return window ? std::optional(*window / mm) : std::nullopt;
 }
 
+void expect_guard(Run& run) {
+  try {
+    Guard guard = guard_of(run, find_first_cut(run));
+    if (why_no_guard(run.program.dialect, guard).empty()) run.options.write.guard = std::move(guard);
+  } catch (const InputError&) {  // such a program gets no guard
+  }
+}
+
 void prepare_guard(Run& run, Console& console) {
   const Cut cut = find_first_cut(run);
   const auto refuse = [&](const std::string& why) {

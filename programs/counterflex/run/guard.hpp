@@ -17,6 +17,10 @@ namespace counterflex::cli {
 /// ErrorKind::not_compensated if not even the smallest window holds.
 void prepare_guard(Run& run, Console& console);
 
+/// Of a run that verifies: sets the guard with which one of the corrected program is compared, without a
+/// window. Sets none if its values are not known.
+void expect_guard(Run& run);
+
 /// The largest half-width (mm) of `window_steps_mm` within which the corrected program holds; empty: not even
 /// the smallest one. `tool`: its length may be off, too. `places` are of the corrected program, those that
 /// use up most of the tolerance.

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "counterflex/compensation/windows.hpp"
+#include "run/guard.hpp"
 #include "run/header/header_hashes.hpp"
 #include "run/proof.hpp"
 #include "run/significance.hpp"
@@ -15,7 +16,8 @@ namespace {
 /// Contents of a corrected program except its moves, which are matched later.
 struct CorrectedScan {
   Overview program;
-  std::string beginning;  ///< text of the first window, which has the header
+  std::string beginning;   ///< text of the first window, which has the header
+  bool has_marks = false;  ///< such as the lines of a guard have
 };
 
 CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadOptions& read,
@@ -28,6 +30,7 @@ CorrectedScan scan_corrected(const Options& options, const Run& run, const ReadO
   while (reader.next()) {
     Program& window = reader.window();
     if (!std::exchange(begun, true)) scan.beginning = window.text;
+    scan.has_marks = scan.has_marks || window.text.find("CF ") != std::string::npos;
     if (proof != nullptr) proof->add_text(window.text);
     ignore_axes(window, run.ignored);
     add_window(scan.program, window);
@@ -58,6 +61,7 @@ std::optional<ErrorKind> verify_run(const Options& options, Run& run, ProgramFil
   std::optional<ProofNotes> proof;
   if (wants_proof(options)) proof.emplace(run.program.dialect);
   const CorrectedScan scan = scan_corrected(options, run, read, corrected, tally, proof ? &*proof : nullptr);
+  if (scan.has_marks) expect_guard(run);
   run.facts.inputs.push_back(corrected.file);
   run.corrected_name = shown_name(options.verify.corrected);
   for (const std::string& warning : other_inputs_of_header(scan.beginning, options, run))

@@ -168,8 +168,11 @@ void OtherLines::end_calls(bool at_hole) {
 
 // Elsewhere the checks of a guard could skip moves.
 bool OtherLines::is_of_guard(const Program& window, std::size_t line_begin) {
-  if (guard_ == Guard::behind || !is_line_of_guard(window, line_begin)) return false;
+  if (guard_ == Guard::behind) return false;
+  auto line = line_of_guard(window, line_begin);
+  if (!line) return false;
   guard_ = Guard::inside;
+  guard_lines_.push_back({line_of_file(window.expansion, lines_before_ + 1), std::move(*line)});
   return true;
 }
 

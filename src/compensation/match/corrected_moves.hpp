@@ -3,6 +3,7 @@
 #include <deque>
 #include <functional>
 #include <span>
+#include <utility>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
@@ -39,6 +40,12 @@ class OtherLines {
 
   std::deque<OtherLine> lines{};  ///< that were not compared yet
 
+  /// Whether no line of a guard may follow.
+  bool has_passed_guard() const { return guard_ == Guard::behind; }
+
+  /// The lines of a guard, each once.
+  std::vector<OtherLine> take_guard() { return std::exchange(guard_lines_, {}); }
+
  private:
   struct WaitingLine {
     OtherLine line;
@@ -57,6 +64,7 @@ class OtherLines {
   std::vector<std::string> last_surface_{};  // the last one that has
   ActingWords acting_{};
   Guard guard_ = Guard::before;
+  std::vector<OtherLine> guard_lines_{};
   int lines_before_ = 0;   // of the text, before the window
   std::size_t count_ = 0;  // without a move
 };

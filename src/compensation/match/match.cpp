@@ -1,11 +1,14 @@
 #include "compensation/match/match.hpp"
 
+#include <algorithm>
 #include <cmath>
 #include <utility>
 
 #include "compensation/match/match_moves.hpp"
 #include "compensation/solve/commands.hpp"
+#include "counterflex/compensation/offset_window.hpp"
 #include "counterflex/compensation/windows.hpp"
+#include "counterflex/program/kept_words.hpp"
 
 namespace counterflex {
 namespace {
@@ -108,6 +111,32 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   return std::nullopt;
 }
 
+bool has_lines(const std::vector<OtherLine>& found, const std::vector<std::string>& wanted) {
+  return std::ranges::equal(found, wanted, {}, &OtherLine::text);
+}
+
+// The lines of a guard are those that are written for the machine, the work offset and the tool of the run,
+// with one of the windows.
+std::optional<Failure> guard_failure(const Job& job, const std::vector<OtherLine>& found) {
+  if (found.empty()) return std::nullopt;
+  const std::optional<Guard>& guard = job.options.write.guard;
+  if (!guard)
+    return Failure{
+        ErrorKind::not_compensated, 0,
+        "the checks from here on cannot be compared with those of --guard, as the numbers of the work "
+        "offset on the control are not known: state offset_mm in the machine file",
+        found.front().line};
+  for (const double window_mm : window_steps_mm) {
+    Guard written = *guard;
+    written.window_mm = window_mm;
+    if (has_lines(found, lines_of_guard(job.program.dialect, written))) return std::nullopt;
+  }
+  return Failure{
+      ErrorKind::not_compensated, 0,
+      "the checks from here on are not those that --guard writes for this machine, work offset and tool",
+      found.front().line};
+}
+
 }  // namespace
 
 Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, CorrectedMoves& found) {
@@ -119,6 +148,8 @@ Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, Corre
     result.failure = match_move(job, plan, m, places[m], finder, found, state);
   if (!result.failure) result.failure = state.zone.smaller;
   if (auto failure = lines_failure(lines, found.other_lines())) result.failure = failure;
+  if (!result.failure && found.other_lines().has_passed_guard())
+    result.failure = guard_failure(job, found.other_lines().take_guard());
   result.changed_without_piece = state.changed_without_piece;
   if (!result.failure) result.pieces = refined(job, std::move(state.drafts));
   return result;
@@ -130,6 +161,8 @@ std::optional<Failure> match_end(OtherLines& lines, CorrectedMoves& found) {
                    left->move->line};
   OtherLines& others = found.other_lines();
   if (auto failure = lines_failure(lines, others)) return failure;
+  if (const auto guard = others.take_guard(); !guard.empty())
+    return Failure{ErrorKind::not_compensated, 0, "no cut follows these checks", guard.front().line};
   if (!others.lines.empty())
     return Failure{ErrorKind::not_compensated, 0, "the original has no such line", others.lines.front().line};
   if (!lines.lines.empty())

@@ -23,7 +23,8 @@ struct Matching {
 /// `found`. `plan` has a segment for each of the path: it distinguishes the end of a move from points that
 /// were inserted before it, and has where along the segment such a point belongs. `lines`: of the original,
 /// up to this window. A failure is a move that has no counterpart, one of another kind, sense or number of
-/// turns, or another line that differs.
+/// turns, another line that differs, or a guard in `found` that is not `WriteOptions::guard` of the job with
+/// one of `window_steps_mm`.
 Matching match_window(const Job& job, const Plan& plan, OtherLines& lines, CorrectedMoves& found);
 
 /// Behind the last window: the failure of what is left over in either program.
