@@ -42,16 +42,17 @@ struct LineSigns {
 
 void take_word(char letter, std::string_view digits, Signs& signs, LineSigns& line) {
   ++signs.words[static_cast<std::size_t>(letter - 'A')];
+  if (letter == 'S') line.speed = true;
+  if (letter == 'T') signs.long_tool_number = signs.long_tool_number || digits.size() == 4;
+  if (letter != 'G' && letter != 'M') return;
   double value = 0;
   std::from_chars(digits.data(), digits.data() + digits.size(), value);
   const int code = static_cast<int>(std::clamp(value, -1.0, 9999.0));
   if (letter == 'G') {
     signs.g_codes.insert(code);
     line.limits = line.limits || code == 50 || code == 92;
+    return;
   }
-  if (letter == 'S') line.speed = true;
-  if (letter == 'T') signs.long_tool_number = signs.long_tool_number || digits.size() == 4;
-  if (letter != 'M') return;
   signs.beam_switches += code >= 3 && code <= 5;
   signs.changes_tool = signs.changes_tool || code == 6;
   signs.heats = signs.heats || code == 104 || code == 109 || code == 140 || code == 190;
@@ -64,6 +65,10 @@ void take_comment(std::string_view comment, Signs& signs) {
   signs.has_plasma_comment = signs.has_plasma_comment || has_word(comment, "PLASMA");
 }
 
+bool is_of_number(char c) {
+  return is_digit(c) || c == '.' || c == '+' || c == '-';
+}
+
 void take_line(std::string_view line, Signs& signs) {
   LineSigns of_line;
   for (std::size_t i = 0; i < line.size();) {
@@ -74,8 +79,7 @@ void take_line(std::string_view line, Signs& signs) {
       i = end + 1;
     } else if (is_letter(line[i])) {
       std::size_t end = i + 1;
-      while (end < line.size() && std::string_view("0123456789.+-").find(line[end]) != std::string_view::npos)
-        ++end;
+      while (end < line.size() && is_of_number(line[end])) ++end;
       const bool name = end < line.size() && is_letter(line[end]) && end == i + 1;
       if (!name && end > i + 1) take_word(upper(line[i]), line.substr(i + 1, end - i - 1), signs, of_line);
       while (name && end < line.size() && is_letter(line[end])) ++end;

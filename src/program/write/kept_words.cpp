@@ -1,7 +1,9 @@
 #include "program/write/kept_words.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cctype>
+#include <span>
 #include <string_view>
 #include <vector>
 
@@ -22,6 +24,7 @@ bool is_height(const Move& move, const PackedAxisWord& word) {
 
 std::vector<Span> rewritten_numbers(const Move& move) {
   std::vector<Span> numbers;
+  numbers.reserve(16);
   const auto add = [&](const PackedAxisWord& word) {
     // A block may also have words of one before it: the centre or the surface that it uses.
     if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
@@ -79,12 +82,12 @@ std::size_t word_end(const std::string& text, std::size_t i, std::string_view na
 }
 
 // Without words of motion, and without those that `names` gives.
-std::string without_motion(const std::string& text, const std::vector<std::string_view>& names) {
+std::string without_motion(const std::string& text, std::span<const std::string_view> names) {
   std::string kept;
   for (std::size_t i = 0; i < text.size();) {
     if (text[i] == ';') return kept + text.substr(i);
     std::size_t end = text[i] == '(' ? std::min(text.find(')', i), text.size() - 1) + 1 : i;
-    kept += text.substr(i, end - i);
+    kept.append(text, i, end - i);
     if (end > i) {
       i = end;
       continue;
@@ -163,10 +166,10 @@ std::string take_arc_word(const Program& program, const Move& move, std::string&
 }
 
 std::string gcode_kept_words(const Program& program, const Move& move) {
-  std::vector<std::string_view> names{"N"};
-  if (move.feed_mode == FeedMode::inverse_time) names.push_back("F");
-  if (move.arc) names.insert(names.end(), {"P", "TURN="});
-  return without_motion(without_rewritten_words(program, move, false), names);
+  constexpr std::array<std::string_view, 4> names{"F", "N", "P", "TURN="};
+  const std::size_t begin = move.feed_mode == FeedMode::inverse_time ? 0 : 1, end = move.arc ? 4 : 2;
+  return without_motion(without_rewritten_words(program, move, false),
+                        std::span(names).subspan(begin, end - begin));
 }
 
 }  // namespace counterflex
