@@ -23,10 +23,10 @@ void add_value(AxisValues& range, const Travel& travel, double value, int line) 
 
 void TravelTally::add(const Mechanism& mechanism, const Eigen::VectorXd& rho, int line) {
   last_ = rho + full_turns(mechanism, rho, places_++ == 0 ? rho : last_);
-  const Eigen::VectorXd shown = shown_values(mechanism.shown, last_);
   axes_.resize(mechanism.travel.size());
   for (std::size_t i = 0; i < axes_.size(); ++i)
-    add_value(axes_[i], mechanism.travel[i], shown[static_cast<Eigen::Index>(i)], line);
+    add_value(axes_[i], mechanism.travel[i],
+              shown_value(mechanism.shown, static_cast<Eigen::Index>(i), last_.data()), line);
   const auto at = tightest_axis(mechanism, last_);
   if (!at) return;
   if (tightest_ && at->share >= share_ - 1e-9) return;  // keeps the first of equal values

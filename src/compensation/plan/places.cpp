@@ -104,6 +104,7 @@ void fractions_inside(const Job& job, std::size_t index, int steps, ForceCursor&
 std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                                  ForceCursor& cursor) {
   std::vector<Vector6> bends;
+  bends.reserve(corners.size() + eighths);
   const auto add = [&](double u) {
     const double v = (u - stretch.u0) / (stretch.u1 - stretch.u0);
     const Vector6 F = job.forces.at(stretch.segment, u, Side::before, cursor);

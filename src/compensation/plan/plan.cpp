@@ -34,8 +34,9 @@ struct PlanTask {
 // What is requested along a slice of the path.
 struct Requests {
   Corrections corrections;
-  std::vector<PlanTask> tasks;
-  std::vector<Interval> intervals;
+  std::vector<PlanTask> tasks{};
+  std::vector<Interval> intervals{};
+  std::vector<double> limits{};  // of the cut at hand
 };
 
 // Where sampling begins again: at corners of the force, where a joint reverses, often enough around an arc
@@ -48,10 +49,11 @@ void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::ve
 }
 
 // Whether the bound of its cell lets a line go straight between its ends.
-bool bends_little(const Job& job, Corrections& corrections, const PlanTask& task, const Vector6& F1) {
+bool bends_little(const Job& job, Requests& requests, const PlanTask& task, const Vector6& F1) {
   if (task.fade.acts()) return false;
+  Corrections& corrections = requests.corrections;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
-  const LineBend bend = bend_of(job, corrections.solver(), along, task.limits, corrections.cursor());
+  const LineBend bend = bend_of(job, corrections.solver(), along, requests.limits, corrections.cursor());
   return bend.command <= bend_share * room_for_knots(job, job.path.segments[task.segment]);
 }
 
@@ -70,6 +72,7 @@ void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector
   const bool may_wave = segment.wanted.arc.has_value() || steps_of_tables(job, segment) > 1;
   double u0 = 0;
   Answer a = task.start;
+  task.limits = requests.limits;
   for (const double u : task.limits) {
     const Vector6 F = corrections.force_at(task.segment, u, Side::before);
     requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, u, F, may_wave));
@@ -109,9 +112,9 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index, PlannedS
       return plan_as_programmed(job, segment, task.fade.programmed, planned);
     if (segment.cutting || job.options.blend == 0 || segment.wanted.arc)
       task.start = corrections.ask(index, 0, Side::after);
-    if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
+    if (segment.cutting) find_limits(job, index, corrections.cursor(), requests.limits);
     const Vector6 F1 = corrections.force_at(index, 1, Side::before);
-    task.is_sampled = segment.cutting && !bends_little(job, corrections, task, F1);
+    task.is_sampled = segment.cutting && !bends_little(job, requests, task, F1);
     if (task.is_sampled)
       ask_inside(job, requests, task, F1);
     else
@@ -179,7 +182,7 @@ std::optional<Failure> finish(const Job& job, Corrections& corrections, const Pl
 // Segments [begin, end).
 std::optional<Failure> plan_slice(const Job& job, std::size_t begin, std::size_t end, Plan& plan) {
   PlaceSolver solver(job);
-  Requests requests{Corrections(job, solver), {}, {}};
+  Requests requests{Corrections(job, solver)};
   for (std::size_t i = begin; i < end; ++i) ask_segment(job, requests, i, plan.segments[i]);
   Corrections& corrections = requests.corrections;
   const std::vector<Interval> intervals =

@@ -21,8 +21,8 @@ double length_before(const Toolpath& path, std::size_t move) {
   return next == path.segments.end() ? path.end.s : next->s_start;
 }
 
-// `share`: of the way of the piece, from the sample before.
-Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, double share) {
+// `share`: of the way of the piece, from the sample before. The waypoint takes the actuators of its answer.
+Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double share) {
   const PieceSample& sample = all.samples[s];
   const SampledPiece& sampled = all.piece_of(s);
   const Piece& piece = *sampled.piece;
@@ -50,7 +50,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
   }
   w.status = all.status(s);
   w.iterations = all.answers[s].iterations;
-  w.rho = all.answers[s].rho;
+  w.rho = std::move(all.answers[s].rho);
   w.directions = all.requests[s].directions;
   if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
   w.correction.head<3>() = all.requests[s].target - original_command(job, piece.frame, w.p_MT);
@@ -60,7 +60,7 @@ Waypoint waypoint_of(const Job& job, const PieceSamples& all, std::size_t s, dou
 
 // A waypoint weighs the way from the sample before: so the weights between two places do not depend on what
 // is sampled between them.
-std::vector<Waypoint> waypoints_of(const Job& job, const PieceSamples& all) {
+std::vector<Waypoint> waypoints_of(const Job& job, PieceSamples& all) {
   std::vector<Waypoint> waypoints;
   waypoints.reserve(all.order.size());
   const PieceSample* before = nullptr;
@@ -106,15 +106,17 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
                    std::vector<Waypoint>& waypoints) {
   std::vector<ForwardPlace> places;
   places.reserve(all.order.size());
-  for (const std::size_t s : all.order) {
+  for (std::size_t i = 0; i < all.order.size(); ++i) {
+    const std::size_t s = all.order[i];
     const ForwardRequest& request = all.requests[s];
     const Vector3 original = original_command(job, all.piece_of(s).piece->frame, all.places[s].p_MT);
-    places.push_back({request.model,
-                      {original, all.places[s].R_MT},
-                      {request.target, request.R, all.answers[s].rho},
-                      request.F,
-                      all.wanted[s].X_MT,
-                      request.directions});
+    places.push_back(
+        {request.model,
+         {original, all.places[s].R_MT},
+         {request.target, request.R, questions.attribution ? waypoints[i].rho : Eigen::VectorXd()},
+         request.F,
+         all.wanted[s].X_MT,
+         request.directions});
   }
   const auto solved = [&] {
     const auto fails = [](const Waypoint& w) { return w.status != Status::converged; };
@@ -175,7 +177,7 @@ void judge_outermost(const Job& job, PlaceSolver& solver, ForwardRun& run) {
 ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Questions& questions,
                        const std::optional<Vector3>& command) {
   PlaceSolver solver(job);
-  const PieceSamples all = sample_pieces(job, solver, pieces, questions, command);
+  PieceSamples all = sample_pieces(job, solver, pieces, questions, command);
   ForwardRun run{waypoints_of(job, all), {}};
   add_questions(job, solver, all, questions, run.waypoints);
   if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged)

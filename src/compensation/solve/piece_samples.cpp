@@ -177,6 +177,9 @@ void add_samples(Slice& slice, std::size_t t) {
 void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional<Vector3>& command) {
   const Vector3* last = command ? &*command : nullptr;
   slice.pieces.reserve(pieces.size());
+  slice.samples.reserve(2 * pieces.size());
+  slice.places.reserve(2 * pieces.size());
+  slice.requests.reserve(2 * pieces.size());
   for (const Piece& piece : pieces) {
     const bool position = piece.segment == no_segment;
     slice.pieces.push_back(

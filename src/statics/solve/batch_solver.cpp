@@ -63,7 +63,7 @@ struct BatchSolver::Impl {
 
   explicit Impl(StartTable::Impl& t) : table(t) {}
 
-  std::shared_ptr<const KinematicsCell> kinematics_at(const TurnedPlace& place) {
+  const std::shared_ptr<const KinematicsCell>& kinematics_at(const TurnedPlace& place) {
     const auto index = table.is_able ? table.index_of(place.p, place.turn) : std::nullopt;
     if (index != last_index) last_kinematics = index ? table.kinematics(*index) : nullptr;
     last_index = index;
@@ -71,7 +71,7 @@ struct BatchSolver::Impl {
   }
 
   /// The cell of the whole machine; null if it has no cell.
-  std::shared_ptr<const kernel::StartCell> target_at(const CellIndex& index) {
+  const std::shared_ptr<const kernel::StartCell>& target_at(const CellIndex& index) {
     if (index != line_index) line_cell = table.target(index, {});
     line_index = index;
     return line_cell;
@@ -85,8 +85,10 @@ struct BatchSolver::Impl {
 
   void add(const TurnedPlace& place, const kernel::StartCell& nominal_cell) {
     append(place.p, batch.p);
-    const Matrix3 R = orientation_of(place);
-    for (int i = 0; i < 9; ++i) batch.R.push_back(R(i / 3, i % 3));
+    if (!table.controls_positions) {
+      const Matrix3 R = orientation_of(place);
+      for (int i = 0; i < 9; ++i) batch.R.push_back(R(i / 3, i % 3));
+    }
     batch.nominal_cells.push_back(&nominal_cell);
   }
 
@@ -129,7 +131,7 @@ struct BatchSolver::Impl {
     begin();
     batch.wants_states = wants_states;
     for (std::size_t i = 0; i < places.size(); ++i) {
-      const auto cell = kinematics_at(places[i]);
+      const auto& cell = kinematics_at(places[i]);
       if (!cell || is_known(i, *cell)) continue;
       add(places[i], cell->start);
       asked.push_back(i);
@@ -201,8 +203,9 @@ LineBend BatchSolver::bend_along(const BatchLine& line) {
   for (const Vector6& dF : line.dF) sizes.kink = std::max(sizes.kink, size(dF));
   sizes.load = std::max(size(line.F0), size(line.F1)) + sizes.kink;
   LineBend bend{0, 0};
-  for (const CellIndex& index : {*begin, *end}) {
-    const auto cell = impl_->target_at(index);
+  const std::array<CellIndex, 2> cells{*begin, *end};
+  for (const CellIndex& index : std::span(cells).first(sizes.crosses ? 2 : 1)) {
+    const auto& cell = impl_->target_at(index);
     if (!cell) return unknown;
     const kernel::ChordBounds bounds = chord_bounds(cell->bounds, sizes);
     if (!std::isfinite(bounds.command) || !std::isfinite(bounds.gain)) return unknown;
@@ -225,13 +228,14 @@ void BatchSolver::nominals(std::span<const TurnedPlace> places, std::span<Nomina
 }
 
 const Configuration* BatchSolver::nominal_near(const TurnedPlace& place) {
-  const auto cell = impl_->kinematics_at(place);  // which keeps it
+  const auto& cell = impl_->kinematics_at(place);
   return cell ? &cell->nominal : nullptr;
 }
 
 // Neighbouring cells have the same actuators at a place between them.
 bool BatchSolver::joins(const TurnedPlace& from, const TurnedPlace& to) {
-  const auto begin = impl_->kinematics_at(from), end = impl_->kinematics_at(to);
+  const std::shared_ptr<const KinematicsCell> begin = impl_->kinematics_at(from),
+                                              end = impl_->kinematics_at(to);
   if (!begin || !end) return false;
   if (begin == end) return true;
   if ((from.p - to.p).cwiseAbs().maxCoeff() > impl_->table.edge) return false;
