@@ -105,6 +105,31 @@ TEST_CASE("the body of a subprogram does not run at its place, and a call may mo
   CHECK(fixed_moves("G65 P9010 I1. J2. I3.\nG90 G17 G98 G40 G0 X6.\n", "fanuc") == Fixed{true, false});
 }
 
+TEST_CASE("behind a call arcs need G90.1 or G91.1 only where the control has them, and cycles never") {
+  const std::string call = "M98 P100\nG90 G17 G98 G40 G0 X0. Y0. Z20.\n";
+  const std::string arc = "G2 X10. Y10. I10. J0.\n", cycle = "G81 X10. Y10. Z-5. R2.\n";
+  for (const char* dialect : {"fanuc", "haas"})
+    CHECK(fixed_moves(call + arc + "G0 X0. Y0.\n" + cycle, dialect) ==
+          Fixed{true, false, false, false, false});
+  CHECK(fixed_moves(call + cycle, "mach3") == Fixed{true, false, false});
+  CHECK(fixed_moves(call + arc, "mach3") == Fixed{true, false, true});
+  CHECK(fixed_moves(call + "G91.1 " + arc, "mach3") == Fixed{true, false, false});
+}
+
+TEST_CASE("a block names the state that is unknown behind a call") {
+  const auto why = [](const std::string& words, const std::string& block) {
+    return read(origin_block + "M98 P100\n" + words + " X0. Y0. Z20.\n" + block, "mach3")
+        .left_alone.back()
+        .why;
+  };
+  const std::string arc = "G2 X10. Y10. I10. J0.\n", cycle = "G81 X10. Y10. Z-5. R2.\n";
+  const std::string call = " is unknown (a condition, a call or a '/' block may have set it)";
+  CHECK(why("G90 G17 G98 G0", arc) == "G90.1 or G91.1" + call);
+  CHECK(why("G90 G98 G0", arc) == "G17, G18 or G19" + call);
+  CHECK(why("G90 G17 G0", cycle) == "G98 or G99" + call);
+  CHECK(why("G90 G17 G98", "X5.\n") == "its motion" + call);
+}
+
 TEST_CASE("numbered subprograms before or behind a program end at M99") {
   const std::string main = origin_block + "M98 P2\nM30\n", sub = "G1 X5.\nM99\n";
   CHECK(read("O1\n" + main + "O2\n" + sub).moves.size() == 2);

@@ -206,6 +206,14 @@ TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their
   CHECK(own_feed.moves[n - 1].may_split);
 }
 
+TEST_CASE("siemens: an arc behind a call is corrected when plane, motion and position are stated again") {
+  const Program program =
+      siemens(std::string(siemens_start) + "L100\nG0 G90 G17 X0 Y0 Z20\nG2 X10 Y10 I10 J0 F100\n");
+  CHECK(program.left_alone.size() == 1);
+  CHECK_FALSE(program.moves.back().fixed[0]);
+  CHECK(program.moves.back().arc.has_value());
+}
+
 TEST_CASE("siemens: ANG= gives the coordinate of a line that has no word for it") {
   const std::string text = std::string(siemens_start) + "G1 X40 ANG=45 F100\nY0 ANG=90\nY-20 ANG=-135\n";
   const Program program = siemens(text);

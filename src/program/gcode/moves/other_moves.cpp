@@ -105,6 +105,16 @@ std::string_view word_not_read(const Block& block, const Reading& r) {
   return is_position_name(name) || beside_words ? name : std::string_view();
 }
 
+/// Modal states that text which is not read may set by a code of its dialect. No code of the others sets
+/// G90.1 and G91.1, or on a Sinumerik G98 and G99.
+std::uint16_t modes_of(const Dialect& dialect) {
+  constexpr unsigned with_centres = linuxcnc_family | grbl_family | mach3_family;
+  unsigned modes = all_unknown_modes;
+  if ((dialect.family & with_centres) == 0) modes &= ~unsigned{unknown_centres};
+  if (dialect.sinumerik_words) modes &= ~unsigned{unknown_level};
+  return static_cast<std::uint16_t>(modes);
+}
+
 }  // namespace
 
 void read_call(const Block& block, Reading& r, std::string_view program) {
@@ -124,13 +134,14 @@ void read_call(const Block& block, Reading& r, std::string_view program) {
   finish_move(r, move);
   end_contour(r);
   forget_speeds(r.state);
-  r.state.unknown_modes |=
+  constexpr std::uint16_t not_assumed =
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
+  r.state.unknown_modes |= static_cast<std::uint16_t>(not_assumed & modes_of(r.dialect));
   if (word.empty()) assume_of_calls(r.program, block.line);
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {
-  r.state.unknown_modes = all_unknown_modes;
+  r.state.unknown_modes = modes_of(r.dialect);
   r.variables.clear();
   forget_speeds(r.state);
   Move& move = start_move(block, r, Motion::rapid);

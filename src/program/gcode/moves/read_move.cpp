@@ -118,7 +118,13 @@ std::string_view unknown_mode_text(std::uint16_t unknown_modes) {
     return "G93, G94 or G95 is unknown (a condition, a call or a '/' block may have set it)";
   if ((unknown_modes & unknown_tool) != 0)
     return "its tool is unknown (a condition, a call or a '/' block may have changed it)";
-  return "its motion is unknown (a condition, a call or a '/' block may have set it)";
+  if ((unknown_modes & unknown_motion) != 0)
+    return "its motion is unknown (a condition, a call or a '/' block may have set it)";
+  if ((unknown_modes & unknown_plane) != 0)
+    return "G17, G18 or G19 is unknown (a condition, a call or a '/' block may have set it)";
+  if ((unknown_modes & unknown_centres) != 0)
+    return "G90.1 or G91.1 is unknown (a condition, a call or a '/' block may have set it)";
+  return "G98 or G99 is unknown (a condition, a call or a '/' block may have set it)";
 }
 
 /// Whether the only displacement is a macro that every move calls: the moves to its positions are plain.
@@ -259,9 +265,12 @@ std::string_view why_not_followed(const Reading& r) {
                                       : "it is in a condition, a loop or a subprogram";
   if (r.state.displaced != 0) return displacement_text(r);
   std::uint16_t unknown_modes = r.state.unknown_modes;
-  // Only arcs and cycles depend on planes and centres, only cycles on levels.
-  const bool curved = r.state.motion >= MotionMode::clockwise || (unknown_modes & unknown_motion) != 0;
-  if (!curved) unknown_modes &= static_cast<std::uint16_t>(~(unknown_plane | unknown_centres));
+  // Only arcs and cycles depend on planes, only arcs on centres, only cycles on levels.
+  const bool any = (unknown_modes & unknown_motion) != 0;
+  const bool arc = r.state.motion == MotionMode::clockwise || r.state.motion == MotionMode::counter_clockwise;
+  if (!any && r.state.motion < MotionMode::clockwise)
+    unknown_modes &= static_cast<std::uint16_t>(~unknown_plane);
+  if (!any && !arc) unknown_modes &= static_cast<std::uint16_t>(~unknown_centres);
   if (r.state.motion != MotionMode::cycle) unknown_modes &= static_cast<std::uint16_t>(~unknown_level);
   return unknown_modes != 0 ? unknown_mode_text(unknown_modes) : std::string_view();
 }
