@@ -18,8 +18,9 @@ bool is_space(char c) {
   return is_blank(c) || c == '\n' || is_ignored(c);
 }
 
-/// Position behind blanks, line ends and comments.
+/// Position behind blanks, line ends and comments, and behind the byte order mark of a file.
 std::size_t behind_space(std::string_view text, std::size_t at, std::size_t end) {
+  if (at == 0) at = std::min(byte_order_mark(text), end);
   while (at < end) {
     if (text[at] == '!')
       at = std::min(text.find('\n', at), end);

@@ -30,6 +30,22 @@ const std::string milling_job =
 
 }  // namespace
 
+TEST_CASE("a UTF-8 byte order mark before MODULE hides no declaration") {
+  const std::string job =
+      "MODULE Job\n"
+      "  CONST robtarget p1:=[[0,0,60],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]];\n"
+      "PROC main()\n"
+      "  MoveL p1,v20,fine,tool1;\n"
+      "ENDPROC\n"
+      "ENDMODULE\n";
+  for (const std::string& text : {job, "\xEF\xBB\xBF" + job}) {
+    const Program program = read_rapid(text);
+    CHECK(program.left_alone.empty());
+    REQUIRE(program.moves.size() == 1);
+    CHECK(program.moves[0].end_mm == Vector3(0, 0, 60));
+  }
+}
+
 TEST_CASE("the targets of MoveL and MoveJ are read with their quaternions, frames, feeds and zones") {
   const Program program = read_rapid(milling_job);
   CHECK(program.dialect == "abb");
