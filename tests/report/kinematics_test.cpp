@@ -98,6 +98,25 @@ TEST_CASE("the text has the orientation in the numbers of each control") {
   CHECK(to_json(report).find("\"margin\": 40.0") != std::string::npos);
 }
 
+TEST_CASE("of two triples of angles the text has the one whose middle angle is within 90 degrees") {
+  struct Row {
+    double x, y, z;  // deg, about fixed axes
+    const char* shown;
+  };
+  for (const Row& row : {Row{12, -174, 78, "A B C: -102.0000, -6.0000, -168.0000 deg"},
+                         Row{-168, -6, -102, "A B C: -102.0000, -6.0000, -168.0000 deg"},
+                         Row{0, 90, 30, "A B C: 30.0000, 90.0000, 0.0000 deg"},
+                         Row{0, -90, 30, "A B C: 30.0000, -90.0000, 0.0000 deg"},
+                         Row{170, 80, -170, "A B C: -170.0000, 80.0000, 170.0000 deg"}}) {
+    KinematicPlace place{Status::converged, "", {}, degrees({0}), {}};
+    place.X_MT = {from_rpy(Vector3(row.x, row.y, row.z) * deg), Vector3::Zero()};
+    const std::string text =
+        to_text(KinematicsReport{"1", "robot", "", {{-pi, pi, JointKind::revolute, "axis A1"}}, {place}});
+    CAPTURE(text);
+    CHECK(text.find(row.shown) != std::string::npos);
+  }
+}
+
 TEST_CASE("a place that is not reached has a status and no numbers") {
   const KinematicPlace place = place_at_tip(arm(), translation(Vector3(9, 0, 0)));
   CHECK(place.status != Status::converged);

@@ -48,9 +48,20 @@ constexpr ControlForm control_forms[] = {
     {"UR", "ur_rotation_vector_rad", "rx ry rz", " rad", OrientationForm::rotation_vector, false, 6},
 };
 
+/// Of the two triples of angles about X, Y and Z that give one rotation: the one that controls show. Its
+/// angle about Y is within 90 degrees.
+OrientationNumbers shown_angles(const OrientationNumbers& angles) {
+  constexpr double rounding = 1e-9;
+  if (std::abs(angles[1]) <= 90 + rounding) return angles;
+  const auto whole_turns_off = [](double angle) { return std::remainder(angle, 360.0); };
+  return {whole_turns_off(angles[0] + 180), whole_turns_off(180 - angles[1]),
+          whole_turns_off(angles[2] + 180), 0};
+}
+
 std::vector<double> numbers_in(const ControlForm& control, const Matrix3& R) {
   const OrientationNumbers near = {control.form == OrientationForm::quaternion ? 1.0 : 0.0, 0, 0, 0};
-  const OrientationNumbers numbers = numbers_of(control.form, R, near);
+  OrientationNumbers numbers = numbers_of(control.form, R, near);
+  if (control.form == OrientationForm::fixed_axes) numbers = shown_angles(numbers);
   std::vector<double> list(numbers.begin(),
                            numbers.begin() + static_cast<std::ptrdiff_t>(number_count(control.form)));
   if (control.z_first) std::reverse(list.begin(), list.end());
