@@ -5,6 +5,7 @@
 #include "counterflex/files/system.hpp"
 #include "counterflex/files/text.hpp"
 #include "settings/keys.hpp"
+#include "settings/read_settings.hpp"
 
 namespace counterflex {
 namespace {
@@ -29,39 +30,50 @@ std::vector<std::string> split_list(std::string_view text) {
   }
 }
 
-std::vector<std::string> name_or_truth(std::string_view text, std::string_view beside_output) {
-  if (text == "false") return {};
-  return {std::string(text == "true" ? beside_output : text)};
-}
-
 bool is_list(setting_file::Kind kind) {
   using setting_file::Kind;
   return kind == Kind::paths || kind == Kind::forces || kind == Kind::offsets || kind == Kind::lengths;
 }
 
-std::vector<std::string> values_of(std::string_view text, setting_file::Kind kind) {
+/// "true" gives the name beside the output, "false" no value.
+std::vector<std::string> names_of(std::string_view text, std::string_view beside_output,
+                                  const std::string& folder) {
+  if (text == "false") return {};
+  if (text == "true") return {std::string(beside_output)};
+  return {setting_file::joined_output(folder, std::string(text))};
+}
+
+std::vector<std::string> values_of(std::string_view text, setting_file::Kind kind,
+                                   const std::string& folder) {
   using setting_file::Kind;
-  if (is_list(kind)) return split_list(text);
+  std::vector<std::string> values = is_list(kind) ? split_list(text) : std::vector{std::string(text)};
   switch (kind) {
+    case Kind::path:
+    case Kind::paths:
+      for (std::string& path : values) path = setting_file::joined_path(folder, path);
+      return values;
+    case Kind::output:
+      return {setting_file::joined_output(folder, values[0])};
     case Kind::report:
-      return name_or_truth(text, setting_file::report_beside_output);
+      return names_of(text, setting_file::report_beside_output, folder);
     case Kind::plot:
-      return name_or_truth(text, setting_file::plot_beside_output);
+      return names_of(text, setting_file::plot_beside_output, folder);
     default:
-      return {std::string(text)};
+      return values;
   }
 }
 
 }  // namespace
 
-std::vector<Setting> read_environment(const char* const* variables) {
+std::vector<Setting> read_environment(const char* const* variables, const std::string& folder) {
   std::vector<Setting> settings;
   for (const setting_file::Key& key : setting_file::keys) {
     const std::string name = setting_file::variable_of(key.option);
     const std::string_view text = value_of_variable(variables, name);
     const bool only_separators = is_list(key.kind) && split_list(text).empty();
     if (text.empty() || only_separators) continue;
-    settings.push_back({std::string(key.option), values_of(text, key.kind), {name}, Origin::environment});
+    settings.push_back(
+        {std::string(key.option), values_of(text, key.kind, folder), {name}, Origin::environment});
   }
   return settings;
 }

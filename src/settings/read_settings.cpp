@@ -4,6 +4,7 @@
 
 #include <filesystem>
 
+#include "counterflex/settings/jobs_file.hpp"
 #include "settings/keys.hpp"
 #include "settings/read_values.hpp"
 
@@ -15,6 +16,11 @@ std::string folder_of(const std::string& file) {
 
 std::string joined_path(const std::string& folder, const std::string& path) {
   return path == "-" ? path : (std::filesystem::path(folder) / path).generic_string();
+}
+
+std::string joined_output(const std::string& folder, const std::string& name) {
+  const bool beside_program = is_pattern(name) && name.find('/') == std::string::npos;
+  return beside_program ? name : joined_path(as_pattern(folder), name);
 }
 
 void check_format_of(const toml::table& document, std::string_view format, std::string_view what,

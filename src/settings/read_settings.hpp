@@ -25,4 +25,8 @@ std::string folder_of(const std::string& file);
 /// `path` relative to the working directory; "-" and absolute paths are not changed.
 std::string joined_path(const std::string& folder, const std::string& path);
 
+/// The same for the name of an output, which may be a pattern. A pattern without a folder is beside the
+/// program. Only `name` is a pattern: braces in `folder` are literal.
+std::string joined_output(const std::string& folder, const std::string& name);
+
 }  // namespace counterflex::setting_file

@@ -66,13 +66,9 @@ void read_paths(const toml::node& node, const ValueContext& context, Setting& se
   for (const toml::node& entry : *node.as_array()) read_path(entry, context, setting);
 }
 
-/// An output name. A pattern without a folder is beside the program, not beside the settings file. Only the
-/// text itself is a pattern: braces in the folder of the file are literal.
 void read_output_name(const toml::node& node, const ValueContext& context, Setting& setting) {
   const std::string text = toml_file::as_text(node, context.name, context.source);
-  const bool only_a_name = is_pattern(text) && text.find('/') == std::string::npos;
-  add_value(setting, only_a_name ? text : joined_path(as_pattern(context.folder), text), node.source(),
-            context.source);
+  add_value(setting, joined_output(context.folder, text), node.source(), context.source);
 }
 
 /// false gives a setting without values: no file is written.

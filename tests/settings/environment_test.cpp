@@ -26,6 +26,24 @@ TEST_CASE("only variables COUNTERFLEX_OPTION are settings") {
   CHECK(settings[0].where.line == 0);
 }
 
+TEST_CASE("paths and names of outputs are those of files in the folder, as in a project file there") {
+  using Texts = std::vector<std::string>;
+  const auto in_folder = [](const char* variable, const std::string& option) {
+    const char* const list[] = {variable, nullptr};
+    return test::values(read_environment(list, "/a{b}"), option);
+  };
+  CHECK(in_folder("COUNTERFLEX_MACHINE=m.toml", "machine") == Texts{"/a{b}/m.toml"});
+  CHECK(in_folder("COUNTERFLEX_MACHINE=-", "machine") == Texts{"-"});
+  CHECK(in_folder("COUNTERFLEX_FORCES=a.csv:/b.csv", "forces") == Texts{"/a{b}/a.csv", "/b.csv"});
+  CHECK(in_folder("COUNTERFLEX_UNCERTAINTY=u.toml", "uncertainty") == Texts{"/a{b}/u.toml"});
+  CHECK(in_folder("COUNTERFLEX_REPORT=r/{name}", "report") == Texts{"/a{{}b}/r/{name}"});
+  CHECK(in_folder("COUNTERFLEX_REPORT={name}", "report") == Texts{"{name}"});
+  CHECK(in_folder("COUNTERFLEX_REPORT=true", "report") == Texts{"{output}"});
+  CHECK(in_folder("COUNTERFLEX_REPORT=false", "report") == Texts{});
+  CHECK(in_folder("COUNTERFLEX_PLOT=p.svg", "plot") == Texts{"/a{{}b}/p.svg"});
+  CHECK(in_folder("COUNTERFLEX_FORCE=1,2,3", "force") == Texts{"1,2,3"});
+}
+
 TEST_CASE("a variable with a name similar to a setting gives a remark, others do not") {
   const char* const list[] = {"COUNTERFLEX_TOLERANCE=1",
                               "COUNTERFLEX_MACHIN=m",

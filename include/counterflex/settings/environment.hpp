@@ -11,8 +11,9 @@ namespace counterflex {
 /// The settings among `variables`, "NAME=VALUE" each as `environ` has them, whose end is nullptr. Several
 /// values of one option have ':' between them, as in PATH; a report or plot may be "true" or "false",
 /// as in a project file; an empty value counts as not set. Other variables are ignored. Values are not
-/// judged.
-std::vector<Setting> read_environment(const char* const* variables);
+/// judged. Paths and names of outputs are those of files in `folder`, as in a project file there; empty: the
+/// working directory.
+std::vector<Setting> read_environment(const char* const* variables, const std::string& folder = {});
 
 /// Variables whose names are nearly those of settings, each with what was probably meant:
 /// COUNTERFLEX_TOLERANCE.

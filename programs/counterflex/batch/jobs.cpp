@@ -24,17 +24,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Settings of the environment. Their paths are relative to the working directory.
-std::vector<Setting> environment_of(const std::string& from) {
-  std::vector<Setting> settings = read_environment(environment_variables());
-  for (Setting& setting : settings)
-    if (setting.option == "machine" || setting.option == "forces" || setting.option == "tool-table" ||
-        setting.option == "data")
-      for (std::string& path : setting.values)
-        if (path != "-") path = (fs::path(from) / path).lexically_normal().generic_string();
-  return settings;
-}
-
 /// Everything besides the inputs that affects the bytes of the outputs: all options, and all paths (reports
 /// contain them).
 std::string key_of(const Layers& layers, const BatchJob& job) {
@@ -179,7 +168,7 @@ std::vector<std::string> files_written(const BatchJob& job) {
 
 Batch read_batch(const std::string& file, const std::string& from, const std::vector<Setting>& flags) {
   const JobsFile jobs_file = read_jobs(read_input(file, ErrorKind::machine_or_force), file);
-  const std::vector<Setting> environment = environment_of(from);
+  const std::vector<Setting> environment = read_environment(environment_variables(), from);
   Options whole;
   whole.command = Command::batch;
   whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
