@@ -46,7 +46,7 @@ struct JobOutcome {
   std::string verdict = "FAILED";       ///< of the run's report; FAILED where it came to none
   std::string verdict_reason;           ///< as in the report
   std::string error;                    ///< the first diagnostic of a job that failed
-  std::vector<FileHash> inputs;         ///< as they were read
+  std::vector<FileHash> inputs;         ///< as they were read; if it failed, all as they were before it ran
   std::vector<FileHash> outputs;  ///< as they were written, the corrected program first where there is one
   std::optional<double> before_mm,
       after_mm;  ///< largest deviation of feed moves; none where nothing was solved

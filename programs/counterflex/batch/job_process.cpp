@@ -10,6 +10,7 @@
 #include "process/exit_status.hpp"
 #include "process/guarded.hpp"
 #include "run/compensate.hpp"
+#include "run/outputs.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -18,6 +19,7 @@ constexpr std::string_view line_word = "line ", solved_word = "solved ", outcome
 
 void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOutcome& outcome) {
   const RunReport& report = end.report;
+  outcome.inputs.clear();  // those that were read, as they were read
   for (const InputFile& input : run.facts.inputs) outcome.inputs.push_back({input.path, input.sha256});
   outcome.outputs = files.published();
   if (report.before) outcome.before_mm = report.before->max_mm;
@@ -27,6 +29,22 @@ void note_report(const Run& run, const RunEnd& end, const RunFiles& files, JobOu
   outcome.verdict_reason = report.verdict_reason;
   outcome.warnings = report.warnings.count;
   outcome.moves = report.blocks.moves;
+}
+
+/// The inputs as they are now; without those that cannot be read.
+std::vector<FileHash> hashes_of_inputs(const BatchJob& job) {
+  FileHashes hashes;
+  std::vector<FileHash> inputs;
+  for (const std::string& path : inputs_of(job.options))
+    if (const auto& hash = hashes.of(path)) inputs.push_back({path, *hash});
+  return inputs;
+}
+
+/// Adds those of `inputs` that the outcome does not have.
+void add_inputs(const std::vector<FileHash>& inputs, JobOutcome& outcome) {
+  for (const FileHash& input : inputs)
+    if (std::ranges::find(outcome.inputs, input.path, &FileHash::path) == outcome.inputs.end())
+      outcome.inputs.push_back(input);
 }
 
 std::size_t count_of(std::string_view text) {
@@ -64,6 +82,7 @@ JobOrder order_of(const std::string& text) {
 
 void do_job(const BatchJob& job, const JobOrder& order, const SendLine& send) {
   JobOutcome outcome = outcome_for(job);
+  const std::vector<FileHash> inputs_before = outcome.inputs;
   Options options = job.options;
   if (!order.folder.empty()) write_into(order.folder, options);
   options.hash_outputs = true;
@@ -83,6 +102,8 @@ void do_job(const BatchJob& job, const JobOrder& order, const SendLine& send) {
                                 return print_failure(run, end.report, console);
                               });
   });
+  // A failure is outdated when any input has changed: the run may have ended before it read all of them.
+  if (outcome.error_kind) add_inputs(inputs_before, outcome);
   console.finish_warnings();
   send(fmt::format("{}{}", outcome_word, to_json_line(outcome, exit_number)));
 }
@@ -100,6 +121,7 @@ JobOutcome outcome_for(const BatchJob& job) {
   outcome.key = job.key;
   outcome.program = job.program;
   outcome.output = job.output;
+  outcome.inputs = hashes_of_inputs(job);
   return outcome;
 }
 

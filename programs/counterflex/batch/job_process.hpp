@@ -33,7 +33,7 @@ struct JobNews {
 };
 JobNews news_of(std::string_view line);
 
-/// The outcome of a job before it has run.
+/// The outcome of a job before it has run, with its inputs as they are now.
 JobOutcome outcome_for(const BatchJob& job);
 
 /// The outcome of a job whose process ended without sending one. A killed process may succeed in another run,

@@ -25,7 +25,7 @@ namespace {
 namespace fs = std::filesystem;
 
 /// Everything besides the inputs that affects the bytes of the outputs: all options, and all paths (reports
-/// contain them).
+/// contain them), with those of the data lists that the program has now.
 std::string key_of(const Layers& layers, const BatchJob& job) {
   std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
   for (const Setting& setting : effective_settings(Command::compensate, layers)) {
@@ -34,6 +34,8 @@ std::string key_of(const Layers& layers, const BatchJob& job) {
     all += setting.option + '\n';
     for (const std::string& value : setting.values) all += value + '\n';
   }
+  const std::vector<std::string> files = files_of_program(job.program, job.options.data_lists);
+  for (std::size_t i = 1; i < files.size(); ++i) all += files[i] + '\n';
   return sha256(all);
 }
 

@@ -11,6 +11,7 @@
 #include "process/exit_status.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"
+#include "run/outputs.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -32,6 +33,17 @@ std::multimap<std::string, JobOutcome> outcomes_in(const std::vector<std::string
 
 }  // namespace
 
+bool is_current(const JobOutcome& recorded, const BatchJob& job, FileHashes& on_disk) {
+  if (!recorded.error_kind) return is_proven(recorded, job.key, on_disk);
+  const auto is_as_recorded = [&](const FileHash& file) { return on_disk.of(file.path) == file.sha256; };
+  const auto is_recorded_or_missing = [&](const std::string& path) {
+    return !on_disk.of(path) ||
+           std::ranges::find(recorded.inputs, path, &FileHash::path) != recorded.inputs.end();
+  };
+  return recorded.key == job.key && std::ranges::all_of(recorded.inputs, is_as_recorded) &&
+         std::ranges::all_of(inputs_of(job.options), is_recorded_or_missing);
+}
+
 BatchManifest::BatchManifest(std::string path, std::string plan, BatchJobs jobs)
     : path_(std::move(path)), plan_(std::move(plan)), jobs_(std::move(jobs)), outcomes_(jobs_.size()) {}
 
@@ -44,9 +56,8 @@ std::vector<std::optional<JobOutcome>> BatchManifest::recorded(const std::vector
     const auto [begin, end] = by_output.equal_range(jobs_[i]->output);
     for (auto known = begin; known != end && !outcomes[i]; ++known) {
       const JobOutcome& outcome = known->second;
-      const bool failed = failed_too && outcome.error_kind && fails_again(*outcome.error_kind) &&
-                          outcome.key == jobs_[i]->key;
-      if (failed || is_proven(outcome, jobs_[i]->key, on_disk)) outcomes[i] = outcome;
+      const bool is_wanted = !outcome.error_kind || (failed_too && fails_again(*outcome.error_kind));
+      if (is_wanted && is_current(outcome, *jobs_[i], on_disk)) outcomes[i] = outcome;
     }
   }
   return outcomes;

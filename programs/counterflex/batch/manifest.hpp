@@ -11,6 +11,10 @@
 
 namespace counterflex::cli {
 
+/// Whether the recorded outcome is that of the job as it is now: `is_proven`, or a failure with the same
+/// options and with the inputs, those that exist, as they were.
+bool is_current(const JobOutcome& recorded, const BatchJob& job, FileHashes& on_disk);
+
 class BatchManifest {
  public:
   /// `path` of the file, and the plan of its jobs (`Manifest::plan`).

@@ -69,7 +69,7 @@ class ShardResults {
     const auto found = outcomes_.find(job.output);
     if (found == outcomes_.end() || found->second.key != job.key)
       refuse_shard(path, index, count_, fmt::format("this shard has not come to {} yet", job.program));
-    if (!found->second.error_kind && !is_proven(found->second, job.key, on_disk_))
+    if (!is_current(found->second, job, on_disk_))
       refuse_shard(path, index, count_,
                    fmt::format("an input or an output of {} has been changed since", job.program));
   }
