@@ -8,6 +8,7 @@
 
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/system.hpp"
+#include "counterflex/program/program_files.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -53,21 +54,26 @@ WatchedFiles::WatchedFiles(std::string folder, std::vector<std::string> patterns
 
 void WatchedFiles::poll() {
   std::map<std::string, File> files;
+  std::vector<std::string> lists;
   std::error_code error;
   for (fs::directory_iterator entry(folder_, error), end; !error && entry != end; entry.increment(error)) {
     const std::string path = entry->path().generic_string();
+    const std::string list = data_list_beside(path);
+    if (!list.empty()) lists.push_back(list);
     if (!may_be_program(entry->path().filename().generic_string(), patterns_)) continue;
     const auto found = version_of(path);
     if (!found) continue;
-    File& file = files[path] = {.version = *found, .is_from_start = is_first_poll_};
+    File& file = files[path] = {.version = *found, .list = version_of(list), .is_from_start = is_first_poll_};
     const auto before = files_.find(path);
-    if (before == files_.end() || before->second.version != *found) continue;
+    if (before == files_.end() || before->second.version != *found || before->second.list != file.list)
+      continue;
     file = before->second;
     file.is_complete = true;
   }
   if (error)
     throw InputError(ErrorKind::transient_io, {folder_},
                      "cannot read the watched folder: " + error.message());
+  for (const std::string& list : lists) files.erase(list);
   files_ = std::move(files);
   is_first_poll_ = false;
 }

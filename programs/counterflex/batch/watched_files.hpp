@@ -17,7 +17,8 @@ struct FileVersion {
 
 /// Ignores hidden, temporary and empty files, and other files that counterflex reads or writes. With
 /// `patterns`, as in a shell, a name must match one of them; patterns can include .csv, .toml, .json, .html
-/// and .svg.
+/// and .svg. The data list beside a KUKA program is a part of this program: if the list changes, arrives or
+/// vanishes, the program has changed.
 class WatchedFiles {
  public:
   /// Throws `InputError` (ErrorKind::usage) if `folder` is not a folder.
@@ -39,6 +40,7 @@ class WatchedFiles {
  private:
   struct File {
     FileVersion version;
+    std::optional<FileVersion> list;  ///< of the data list beside it
     bool is_from_start = false, is_complete = false, is_done = false;
   };
 
