@@ -64,6 +64,7 @@ double share_of(std::string_view text) {
 void write_into(const std::string& folder, Options& options) {
   const auto file = [&](const char* name) { return (std::filesystem::path(folder) / name).generic_string(); };
   options.output = file("program");
+  options.job_files = nullptr;
   if (options.report) options.report = file("report");
   if (options.plot) options.plot = file("plot.svg");
 }

@@ -9,6 +9,7 @@
 
 #include "batch/globs.hpp"
 #include "counterflex/files/files.hpp"
+#include "counterflex/program/program_files.hpp"
 #include "counterflex/settings/environment.hpp"
 #include "counterflex/settings/jobs_file.hpp"
 #include "counterflex/settings/project_file.hpp"
@@ -51,19 +52,19 @@ double work_of(const BatchJob& job) {
   return work;
 }
 
-/// The jobs found so far; their outputs must differ.
+/// The jobs found so far, and their files; the outputs must differ.
 class JobList {
  public:
-  JobList(const JobsFile& file, const std::vector<Setting>& environment, bool force_overwrite)
-      : file_(file), environment_(environment), force_overwrite_(force_overwrite) {}
+  JobList(const JobsFile& file, const std::vector<Setting>& environment, const Options& whole)
+      : file_(file), environment_(environment), whole_(whole) {}
 
-  std::vector<BatchJob> take() {
+  Batch take() {
     for (const JobEntry& entry : file_.jobs)
       for (const std::string& pattern : entry.programs) add_all(pattern, entry);
     refuse_shared_files();
     std::vector<BatchJob> jobs;
     for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
-    return jobs;
+    return {file_.output, std::move(jobs), std::move(files_), whole_.threads, whole_.force_overwrite};
   }
 
  private:
@@ -93,7 +94,7 @@ class JobList {
     job.program = program;
     job.options = options_for(program, layers, entry);
     job.options.project_file = find_project_file(program).value_or("");
-    job.options.force_overwrite = job.options.force_overwrite || force_overwrite_;
+    job.options.force_overwrite = job.options.force_overwrite || whole_.force_overwrite;
     job.output = *job.options.output;
     job.key = key_of(layers, job);
     job.work = work_of(job);
@@ -124,22 +125,26 @@ class JobList {
     return found->second;
   }
 
-  void refuse_shared_files() const {
-    std::set<std::string> inputs, outputs, summaries;
+  void refuse_shared_files() {
+    std::set<std::string> summaries, programs;
     for (const char* name : {"/summary.json", "/summary.csv"})
       summaries.insert(canonical_name(file_.output + name));
     for (const FoundJob& found : found_)
-      for (const std::string& path : inputs_of(found.job.options)) inputs.insert(canonical_name(path));
-    for (const FoundJob& found : found_)
+      for (const std::string& path : inputs_of(found.job.options)) files_.add_input(path);
+    for (const FoundJob& found : found_) {
       for (const std::string& path : files_written(found.job)) {
-        const std::string name = canonical_name(path);
-        if (inputs.count(name) > 0)
+        if (files_.is_input(path))
           refuse(found, path, "an input of this batch, and inputs are never overwritten");
-        if (summaries.count(name) > 0) refuse(found, path, "the summary of the batch");
-        if (!outputs.insert(name).second)
+        if (summaries.contains(canonical_name(path))) refuse(found, path, "the summary of the batch");
+      }
+      bool is_shared = !programs.insert(found.job.output).second;
+      for (const std::string& path : outputs_of(found.job)) {
+        is_shared = is_shared || files_.add_output(path, {found.job.output, found.job.program}) != nullptr;
+        if (is_shared)
           refuse(found, path,
                  "which is also the output of another job: give one of them another folder or name");
       }
+    }
   }
 
   [[noreturn]] static void refuse(const FoundJob& found, const std::string& path, const std::string& why) {
@@ -149,22 +154,31 @@ class JobList {
 
   const JobsFile& file_;
   const std::vector<Setting>& environment_;
-  const bool force_overwrite_;
+  const Options& whole_;  ///< settings of the whole batch
   const std::vector<Setting> none_{};
   std::map<std::string, std::vector<Setting>> projects_;
   std::vector<FoundJob> found_;
+  JobFiles files_;
 };
 
 }  // namespace
 
-std::vector<std::string> files_written(const BatchJob& job) {
+std::vector<std::string> outputs_of(const BatchJob& job) {
   std::vector<std::string> files{job.output};
-  const std::vector<std::string> read = files_of_program(job.program, job.options.data_lists);
-  for (std::size_t i = 1; i < read.size(); ++i)
-    if (!belongs_to_control(read[i])) files.push_back(corrected_list(read[i], job.program, job.output));
+  if (const std::string list = data_list_beside(job.program); !list.empty())
+    files.push_back(corrected_list(list, job.program, job.output));
   if (job.options.report)
     for (const char* ending : {".html", ".json", ".csv"}) files.push_back(*job.options.report + ending);
   if (job.options.plot) files.push_back(*job.options.plot);
+  return files;
+}
+
+std::vector<std::string> files_written(const BatchJob& job) {
+  std::vector<std::string> files = outputs_of(job);
+  const std::vector<std::string> read = files_of_program(job.program, job.options.data_lists);
+  for (std::size_t i = 1; i < read.size(); ++i)
+    if (!belongs_to_control(read[i]) && !is_same_file(read[i], data_list_beside(job.program)))
+      files.push_back(corrected_list(read[i], job.program, job.output));
   return files;
 }
 
@@ -174,8 +188,7 @@ Batch read_batch(const std::string& file, const std::string& from, const std::ve
   Options whole;
   whole.command = Command::batch;
   whole = with_settings(std::move(whole), {flags, environment, jobs_file.defaults});
-  return {jobs_file.output, JobList(jobs_file, environment, whole.force_overwrite).take(), whole.threads,
-          whole.force_overwrite};
+  return JobList(jobs_file, environment, whole).take();
 }
 
 }  // namespace counterflex::cli

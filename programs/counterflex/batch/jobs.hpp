@@ -3,6 +3,7 @@
 #include <string>
 #include <vector>
 
+#include "run/job_files.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {
@@ -14,13 +15,17 @@ struct BatchJob {
   double work = 0;              ///< relative cost: bytes of the program, weighted by method and causes
 };
 
-/// All files that a job writes.
+/// All files that a job writes, without data lists that are written only if they change.
+std::vector<std::string> outputs_of(const BatchJob& job);
+
+/// The same with these lists. Parts of a divided program are known only when it has been corrected.
 std::vector<std::string> files_written(const BatchJob& job);
 
 /// A jobs file, with all its programs found.
 struct Batch {
   std::string folder;          ///< where summary and state are kept
   std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
+  JobFiles files;              ///< inputs and outputs of all jobs
   int threads = 1;             ///< for all of them together
   bool force_overwrite = false;  ///< also replaces a foreign summary
 };

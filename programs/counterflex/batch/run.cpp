@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <chrono>
 #include <cstddef>
+#include <filesystem>
 #include <functional>
 #include <numeric>
 #include <utility>
@@ -13,6 +14,7 @@
 #include "batch/job_process.hpp"
 #include "batch/progress.hpp"
 #include "counterflex/files/input_error.hpp"
+#include "counterflex/files/text.hpp"
 #include "process/signals.hpp"
 #include "process/workers.hpp"
 
@@ -37,15 +39,35 @@ std::vector<std::size_t> missing_jobs(const BatchManifest& manifest) {
   return missing;
 }
 
+/// Fails a job that has written `path`, as the job of the program `other` has. Removes its outputs: one of
+/// them has the contents of the other job.
+void fail_for_shared(const std::string& path, const std::string& other, JobOutcome& outcome) {
+  if (outcome.error_kind) return;
+  std::error_code ignored;
+  for (const FileHash& file : outcome.outputs) std::filesystem::remove(file.path, ignored);
+  outcome.outputs.clear();
+  outcome.error_kind = ErrorKind::usage;
+  outcome.verdict = JobOutcome{}.verdict;
+  outcome.verdict_reason.clear();
+  outcome.error = fmt::format(
+      "{}: error: its output {} is also an output of the job of {}, and is removed; give one of the jobs "
+      "another folder",
+      without_controls(outcome.program), without_controls(path), without_controls(other));
+}
+
 /// Tasks of the workers are indices into `missing_`.
 class JobsRun {
  public:
-  JobsRun(BatchManifest& manifest, int threads, Console& console)
+  JobsRun(BatchManifest& manifest, int threads, JobFiles& files, Console& console)
       : manifest_(manifest),
         missing_(missing_jobs(manifest)),
         threads_(threads),
+        files_(files),
         console_(console),
         outcomes_(missing_.size()) {
+    for (const JobOutcome& outcome : manifest.ended())
+      for (const FileHash& file : outcome.outputs)
+        files_.add_output(file.path, {outcome.output, outcome.program});
     std::vector<double> work;
     for (std::size_t task = 0; task < missing_.size(); ++task) work.push_back(job(task).work);
     large_ = large_share * std::accumulate(work.begin(), work.end(), 0.0) / threads_;
@@ -116,14 +138,38 @@ class JobsRun {
     if (!outcome && (stopped_ = signals_.take(hesitation_ms))) return;
     if (!outcome) outcome = lost_outcome(job(event.task), *event.end);
     if (workers_.running() == 0) alone_ = false;
+    add_outputs(*outcome);
     progress_.end(event.task, !outcome->error_kind);
     if (outcome->error_kind) console_.error(outcome->error);
     manifest_.set(missing_[event.task], std::move(*outcome));
   }
 
+  /// Parts and data lists that change are known only now.
+  void add_outputs(JobOutcome& outcome) {
+    for (const FileHash& file : outcome.outputs) {
+      const OutputOwner* other = files_.add_output(file.path, {outcome.output, outcome.program});
+      if (other == nullptr) continue;
+      const std::string path = file.path;
+      fail_other(*other, path, outcome.program);
+      return fail_for_shared(path, other->program, outcome);  // removes the outputs
+    }
+  }
+
+  void fail_other(const OutputOwner& other, const std::string& path, const std::string& program) {
+    for (std::size_t job = 0; job < manifest_.jobs().size(); ++job) {
+      if (manifest_.jobs()[job]->output != other.output || !manifest_.outcome(job)) continue;
+      JobOutcome outcome = *manifest_.outcome(job);
+      const bool failed_before = outcome.error_kind.has_value();
+      fail_for_shared(path, program, outcome);
+      if (!failed_before) console_.error(outcome.error);
+      manifest_.set(job, std::move(outcome));
+    }
+  }
+
   BatchManifest& manifest_;
   const std::vector<std::size_t> missing_;
   const int threads_;
+  JobFiles& files_;
   Console& console_;
   const AwaitedSignals signals_;
   Workers workers_;
@@ -138,8 +184,8 @@ class JobsRun {
 
 }  // namespace
 
-std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console) {
-  return JobsRun(manifest, threads, console).run();
+std::optional<int> do_missing(BatchManifest& manifest, int threads, JobFiles& files, Console& console) {
+  return JobsRun(manifest, threads, files, console).run();
 }
 
 }  // namespace counterflex::cli

@@ -11,6 +11,9 @@ namespace counterflex::cli {
 /// their outcomes to it. A job that is large compared with all others gets all processors. Returns the signal
 /// that stopped the run, if any: it stops within a second and abandons running jobs. Throws `InputError`
 /// (ErrorKind::transient_io) if no process can be started.
-std::optional<int> do_missing(BatchManifest& manifest, int threads, Console& console);
+///
+/// `files` are those of all jobs of the batch, and get the files that a job writes. If two jobs that ran at
+/// once have written one file, both fail, and their outputs are removed.
+std::optional<int> do_missing(BatchManifest& manifest, int threads, JobFiles& files, Console& console);
 
 }  // namespace counterflex::cli

@@ -78,6 +78,12 @@ void WatchedFiles::poll() {
   is_first_poll_ = false;
 }
 
+std::vector<std::string> WatchedFiles::all() const {
+  std::vector<std::string> paths;
+  for (const auto& [path, file] : files_) paths.push_back(path);
+  return paths;
+}
+
 std::vector<std::string> WatchedFiles::undone(bool complete) const {
   std::vector<std::string> paths;
   for (const auto& [path, file] : files_)

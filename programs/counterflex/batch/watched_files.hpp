@@ -35,6 +35,7 @@ class WatchedFiles {
   /// Whether the file has not changed since the first poll.
   bool is_from_start(const std::string& path) const { return files_.at(path).is_from_start; }
   bool contains(const std::string& path) const { return files_.contains(path); }
+  std::vector<std::string> all() const;  ///< sorted paths
   void set_done(const std::string& path) { files_.at(path).is_done = true; }
 
  private:

@@ -130,7 +130,7 @@ ExitStatus saved(BatchManifest& manifest, int signal) {
   return ExitStatus::of_signal(signal);
 }
 
-ExitStatus run_shard(const Options& options, const Batch& batch, Console& console) {
+ExitStatus run_shard(const Options& options, Batch& batch, Console& console) {
   const auto [index, count] = *options.batch.shard;
   const BatchFolder folder(batch, BatchFolder::Use::shared, console);
   folder.make_state("shards");
@@ -138,7 +138,7 @@ ExitStatus run_shard(const Options& options, const Batch& batch, Console& consol
   const BatchJobs& jobs = by_shard[static_cast<std::size_t>(index - 1)];
   BatchManifest manifest(shard_manifest(folder, index, count), plan_of(by_shard), jobs);
   take_proven(options, folder, manifest, console);
-  const auto stopped = do_missing(manifest, batch.threads, console);
+  const auto stopped = do_missing(manifest, batch.threads, batch.files, console);
   if (stopped) return saved(manifest, *stopped);
   manifest.save();
   const std::vector<JobOutcome> outcomes = manifest.ended();
@@ -158,12 +158,12 @@ ExitStatus run_merge(const Options& options, const Batch& batch, Console& consol
   return error;
 }
 
-ExitStatus run_all(const Options& options, const Batch& batch, Console& console) {
+ExitStatus run_all(const Options& options, Batch& batch, Console& console) {
   const BatchFolder folder(batch, BatchFolder::Use::alone, console);
   BatchManifest manifest(folder.state("manifest.json"), plan_of({all_jobs(batch)}), all_jobs(batch));
   take_proven(options, folder, manifest, console);
   remove_summary(batch);
-  const auto stopped = do_missing(manifest, batch.threads, console);
+  const auto stopped = do_missing(manifest, batch.threads, batch.files, console);
   folder.sweep();
   if (stopped) return saved(manifest, *stopped);
   const auto error = conclude(options, batch, manifest, console);
@@ -184,8 +184,10 @@ ExitStatus run_batch(const Options& options, Console& console) {
   std::error_code gone;
   const std::string from = fs::current_path(gone).generic_string();
   Batch batch = read_batch(enter_folder_of(options.batch.jobs, console), from, options.sources.flags);
-  for (BatchJob& job : batch.jobs)
+  for (BatchJob& job : batch.jobs) {
     job.options.quiet = !options.verbose;  // the table shows the number of warnings
+    job.options.job_files = &batch.files;
+  }
   if (do_ordered(
           [&](const std::string& order, const SendLine& send) { do_one(batch, order_of(order), send); }))
     return ExitStatus(std::nullopt);

@@ -205,15 +205,39 @@ class Watch {
 
   /// Throws `InputError` (ErrorKind::usage) if another program of the folder has one of the outputs.
   void claim_outputs(const BatchJob& job) {
-    for (const std::string& file : files_written(job)) {
+    for (const std::string& file : outputs_of(job)) {
       const auto owner = owners_.find(canonical_name(file));
-      if (owner == owners_.end() || owner->second == job.program || !files_.contains(owner->second)) continue;
+      if (owner == owners_.end() || owner->second.program == job.program ||
+          !files_.contains(owner->second.program))
+        continue;
       throw InputError(ErrorKind::usage, {job.program},
                        fmt::format("its output would be {}, which is also the output of {}: give one of them "
                                    "another name, or name outputs with {{name}}{{ext}}",
-                                   file, owner->second));
+                                   file, owner->second.program));
     }
-    for (const std::string& file : files_written(job)) owners_[canonical_name(file)] = job.program;
+    set_outputs(job, outputs_of(job));
+  }
+
+  void set_outputs(const BatchJob& job, const std::vector<std::string>& files) {
+    for (const std::string& file : files) owners_[canonical_name(file)] = {job.output, job.program};
+  }
+
+  /// The outputs of a job that has ended, with its parts and lists.
+  void set_written(const BatchJob& job, const JobOutcome& outcome) {
+    if (outcome.error_kind) return;
+    std::erase_if(owners_, [&](const auto& owned) { return owned.second.program == job.program; });
+    set_outputs(job, outputs_of(job));
+    for (const FileHash& file : outcome.outputs) set_outputs(job, {file.path});
+  }
+
+  /// The programs of the folder, and the outputs of those that have been compensated.
+  JobFiles job_files() const {
+    JobFiles files;
+    for (const std::string& path : files_.all())
+      if (!is_own(path)) files.add_input(path);
+    for (const auto& [file, owner] : owners_)
+      if (files_.contains(owner.program)) files.add_output(file, owner);
+    return files;
   }
 
   void compensate(const std::string& path) {
@@ -221,9 +245,12 @@ class Watch {
     JobOutcome outcome;
     outcome.program = path;
     try {
-      const BatchJob job = job_for(options_, path);
+      BatchJob job = job_for(options_, path);
       claim_outputs(job);
+      const JobFiles files = job_files();
+      job.options.job_files = &files;
       outcome = outcome_of_process(job);
+      set_written(job, outcome);
     } catch (const InputError& wrong) {
       outcome.error_kind = wrong.kind();
       outcome.error = wrong.what();
@@ -250,7 +277,7 @@ class Watch {
   Console& console_;
   WatchedFiles files_;
   FolderLock lock_;
-  std::map<std::string, std::string> owners_;  ///< program by output
+  std::map<std::string, OutputOwner> owners_;  ///< by canonical name of an output
   std::map<std::string, Clock::time_point>
       retries_;  ///< failed programs that may succeed later, and when to try again
   std::optional<ErrorKind> first_failure_;

@@ -102,6 +102,16 @@ void sweep_left(const OutputPaths& paths) {
   sweep_abandoned(files);
 }
 
+/// A divided program calls its parts by name: another program under this name would run instead.
+void refuse_part_of_other(const std::string& file, const std::string& program) {
+  const std::string divided = divided_program_of(file);
+  if (divided.empty() || is_same_file(divided, program)) return;
+  throw InputError(ErrorKind::usage, {file},
+                   fmt::format("the file is a part of the divided program {}, which calls it; write into "
+                               "another folder, or remove both files",
+                               without_controls(divided)));
+}
+
 std::string stem_of_report(const Options& options) {
   if (options.report->empty() || *options.report == "-")
     throw InputError(ErrorKind::usage, {}, "--report needs the stem of file names, not standard output (-)");
@@ -149,21 +159,18 @@ std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<
   check_paths(files, inputs_of(options), options.folders);
   files.erase(files.begin());
   // Modules of two programs may have one name. What the last run wrote is replaced.
-  for (const std::string& file : files)
-    if (!options.force_overwrite && fs::exists(file) && fs::file_size(file) > 0 &&
-        !are_of_one_program(file, paths.program))
+  for (const std::string& file : files) {
+    if (paths.job_files != nullptr) paths.job_files->refuse_others(file, paths.program);
+    if (are_of_one_program(file, paths.program)) continue;
+    refuse_part_of_other(file, paths.program);
+    if (!options.force_overwrite && fs::exists(file) && fs::file_size(file) > 0)
       throw InputError(
           ErrorKind::usage, {file},
           fmt::format("the program is divided, and the file of this part exists and is not one of those "
                       "of {} as it was; write into another folder, or give --force-overwrite",
                       without_controls(paths.program)));
+  }
   return files;
-}
-
-std::string canonical_name(const std::string& path) {
-  std::error_code ignored;
-  const fs::path canonical = fs::weakly_canonical(fs::absolute(path, ignored), ignored);
-  return canonical.empty() ? path : canonical.generic_string();
 }
 
 namespace {
@@ -212,6 +219,7 @@ OutputPaths output_paths(const Options& options) {
   refuse_control_characters(outputs, options.program);
   check_paths(outputs, inputs_of(options), options.folders);
   paths.folders = options.folders;
+  paths.job_files = options.job_files;
   return paths;
 }
 
@@ -243,6 +251,7 @@ OwnFile page_file(const std::string& path) {
 }
 
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
+  refuse_part_of_other(paths.program, paths.program);
   if (options.force_overwrite) return;
   for (const OutputPaths::List& list : paths.lists)  // it has no header of its own
     if (!belongs_to_control(list.input))
@@ -431,6 +440,8 @@ std::vector<FileWriter*> RunFiles::written_lists() {
           ErrorKind::program_text, {list.input},
           "a target in this list is corrected, but all programs of the control use the list; copy "
           "the target into the data list of the program");
+    if (changed && !list.always && paths_.job_files != nullptr)
+      paths_.job_files->refuse_others(list.path, paths_.program);
     if (changed || list.always) lists.push_back(&lists_[i]);
   }
   return lists;

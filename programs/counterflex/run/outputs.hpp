@@ -13,6 +13,7 @@
 #include "counterflex/report/formats.hpp"
 #include "counterflex/report/page.hpp"
 #include "process/spooled_text.hpp"
+#include "run/job_files.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {
@@ -35,6 +36,7 @@ struct OutputPaths {
   std::vector<std::string> folders;  ///< created, with their parents, before any file is written
   /// Get the corrected program, and the rows of the CSV report with its header, besides the files.
   std::function<void(std::string_view)> take_program{}, take_rows{};
+  const JobFiles* job_files = nullptr;  ///< of all jobs, in a batch or a watch
 };
 
 /// The paths of outputs. For `compensate` this includes the corrected program: by default NAME.comp.EXT
@@ -53,15 +55,12 @@ std::string corrected_list(const std::string& list, const std::string& program, 
 
 /// The files of the parts of a divided program, NAME_1.EXT ... in the folder of the corrected program, which
 /// is the first of `parts`. Throws as `output_paths` and `refuse_foreign`, and ErrorKind::usage for standard
-/// output.
+/// output, for a file of another job, and for a part of another divided program.
 std::vector<std::string> part_paths(const OutputPaths& paths, const std::vector<ProgramPart>& parts,
                                     const Options& options);
 
 /// Whether a data list has a name of the control, such as $config.dat: all programs use it.
 bool belongs_to_control(const std::string& list);
-
-/// One name for all paths of a file, which may not exist.
-std::string canonical_name(const std::string& path);
 
 /// The files that the options name as inputs. A machine file or --uncertainty may name a further one, its
 /// covariance.
@@ -81,7 +80,7 @@ OwnFile marked_file(const std::string& path, std::string_view mark);
 void refuse_foreign(const std::vector<OwnFile>& files);
 
 /// The same for the outputs of a run, unless --force-overwrite is given. A program is recognised by its
-/// header.
+/// header. A program that is a part of a divided one is not replaced, even with --force-overwrite.
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
 
 /// The outputs of `compare`; empty paths without --report.
@@ -158,8 +157,8 @@ class RunFiles {
   const std::vector<FileHash>& published() const { return published_; }
 
  private:
-  /// The data lists that have changed, and the one beside the program. Throws `InputError`
-  /// (ErrorKind::program_text) if a list of the control has changed.
+  /// The data lists that have changed, and the one beside the program. Throws `InputError` if a list of the
+  /// control (ErrorKind::program_text) or of another job (ErrorKind::usage) has changed.
   std::vector<FileWriter*> written_lists();
 
   void write_counted();

@@ -135,6 +135,8 @@ struct WatchOptions {
   bool once = false;                  ///< the programs that are there, and no more
 };
 
+class JobFiles;
+
 /// Options of every command that uses them; those of a single command are in its own struct.
 struct Options {
   Command command = Command::check;
@@ -198,7 +200,8 @@ struct Options {
   BatchOptions batch;
   WatchOptions watch;
 
-  bool hash_outputs = false;  ///< compensate in a batch only: for its manifest
+  bool hash_outputs = false;            ///< compensate in a batch only: for its manifest
+  const JobFiles* job_files = nullptr;  ///< compensate in a batch or a watch only: of all jobs
 
   bool json = false;
   bool quiet = false;
