@@ -81,7 +81,7 @@ Vector6 holding_wrench_at_tip(const Mechanism& mechanism, const Configuration& c
 /// passive revolute joints by their change from the nominal configuration. SI.
 struct ChainLoads {
   std::string name;
-  /// Exerted by the platform on the chain's end, at the reference point, axes of M.
+  /// Exerted by the platform and the tool on it on the chain's end, at the reference point, axes of M.
   Vector6 wrench = Vector6::Zero();
   std::array<double, load_kind_count> largest{};
 
@@ -109,13 +109,15 @@ struct CoordinateDetail {
 
 struct ChainDetail {
   std::string name;
-  Vector6 wrench = Vector6::Zero();  ///< of the platform on the chain's end, at its origin, axes of M
-  ChainStiffness stiffness;          ///< (3)-(5)
-  std::vector<std::size_t> passive;  ///< by row of K_Cq: index into `coordinates`
-  std::vector<std::size_t> elastic;  ///< by row of K_Ctheta
-  std::optional<Vector6> eps;        ///< of (14), first order; see `chain_eps`
-  std::optional<Vector6> dt;         ///< (14): motion of the platform less eps
-  double energy = 0;                 ///< (12), J: of springs, compliances and sprung joints
+  /// Of the platform on the chain's end, at its origin, axes of M. The tool's mass belongs to the first
+  /// chain.
+  Vector6 wrench = Vector6::Zero();
+  ChainStiffness stiffness;                   ///< (3)-(5)
+  std::vector<std::size_t> passive;           ///< by row of K_Cq: index into `coordinates`
+  std::vector<std::size_t> elastic;           ///< by row of K_Ctheta
+  std::optional<Vector6> eps;                 ///< of (14), first order; see `chain_eps`
+  std::optional<Vector6> dt;                  ///< (14): motion of the platform less eps
+  double energy = 0;                          ///< (12), J: of springs, compliances and sprung joints
   std::vector<CoordinateDetail> coordinates;  ///< in the order of elements; a group's branches at its place
 };
 

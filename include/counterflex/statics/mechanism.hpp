@@ -83,6 +83,7 @@ struct Mechanism {
   /// Reference point in the frame where the chains end: not zero with a tool that bends.
   Vector3 p_EP = Vector3::Zero();
   Vector3 gravity = Vector3::Zero();  ///< m/s2, axes of M; zero where no weights act: then no part is a mass
+  bool ends_with_tool_mass = false;   ///< the last mass of the first chain is that of the tool
   /// l: mean distance of joint and spring frames from the reference point at home, >= 0.1 m.
   double length = 0.1;
   /// The least distances of positions in tables of errors of motion (m, rad).

@@ -142,6 +142,7 @@ Mechanism compile(const Machine& machine) {
   mechanism.gravity = machine.gravity.g;
   mechanism.fixture = machine.fixture;
   const bool weighs = !mechanism.gravity.isZero(0);
+  mechanism.ends_with_tool_mass = weighs && machine.ends_with_tool_mass;
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));

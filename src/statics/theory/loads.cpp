@@ -93,11 +93,31 @@ Vector3 arm_behind(const Series& series, std::size_t parts, const SeriesState& s
   return X.p - p;
 }
 
+// The tool hangs on the platform, and its mass is the last one of the first chain: its weight at the point
+// where the first `parts` parts end, axes of the start frame.
+Vector6 tool_weight(const Series& series, std::size_t parts, const SeriesState& state,
+                    const Vector3& gravity) {
+  Pose X;
+  Vector3 p = Vector3::Zero(), p_mass = Vector3::Zero();
+  double mass = 0;
+  for (std::size_t i = 0; i <= series.parts.size(); ++i) {
+    if (i == parts) p = X.p;
+    if (i == series.parts.size()) break;
+    const Part& part = series.parts[i];
+    if (part.kind == PartKind::mass) mass = part.mass, p_mass = X * part.X.p;
+    X = X * part_pose(part, state, everything);
+  }
+  Vector6 weight = Vector6::Zero();
+  weight.head<3>() = mass * gravity;
+  return wrench_at(weight, p_mass - p);
+}
+
 // Of `series` as far as it is `base`: a tool's parts follow those of its chain.
-ChainLoads chain_loads(const Series& base, const Series& series, const SeriesState& state) {
+ChainLoads chain_loads(const Series& base, const Series& series, const SeriesState& state,
+                       const Vector6& weight_on_end) {
   ChainLoads chain;
   chain.name = series.name;
-  chain.wrench = wrench_at(state.F, arm_behind(series, base.parts.size(), state));
+  chain.wrench = wrench_at(state.F, arm_behind(series, base.parts.size(), state)) + weight_on_end;
   chain[LoadKind::moment] = largest(chain.wrench.tail<3>());
   add_series(series, base.columns, state, chain);
   return chain;
@@ -146,8 +166,13 @@ std::vector<ChainLoads> loads(const Mechanism& base, const Model& model, const C
   const auto& states =
       as_branches ? configuration.chains.front().groups.front().branches : configuration.chains;
   std::vector<ChainLoads> all;
-  for (std::size_t i = 0; i < chains.size(); ++i)
-    all.push_back(chain_loads(base.chains[i], chains[i], states[i]));
+  for (std::size_t i = 0; i < chains.size(); ++i) {
+    const bool carries_tool = i == 0 && mechanism.ends_with_tool_mass;
+    const Vector6 weight =
+        carries_tool ? tool_weight(chains[0], base.chains[0].parts.size(), states[0], mechanism.gravity)
+                     : Vector6(Vector6::Zero());
+    all.push_back(chain_loads(base.chains[i], chains[i], states[i], weight));
+  }
   return all;
 }
 

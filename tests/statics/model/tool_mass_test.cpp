@@ -48,6 +48,32 @@ TEST_CASE("the mass of a tool acts as its weight at its place, on serial and par
   }
 }
 
+TEST_CASE("the weight of a tool loads the ends of all chains as the same force on the platform does") {
+  for (const char* name : {"mill3", "orthoglide-groove", "hexapod", "robot-ur10"})
+    for (const bool bends : {false, true}) {
+      CAPTURE(name);
+      CAPTURE(bends);
+      Machine machine = tool_sample(name);
+      machine.gravity = {gravity_down};
+      const Model base = prepare(machine);
+      Tool tool = tool_of_mass(4, {0.01, -0.02, 0.07});
+      if (bends) tool.yields = radial_tool(2e7);
+      const Model model = prepare_with_tool(machine, base, tool);
+      const Configuration heavy = home_under(model);
+      const Pose X_MT = heavy.X_MP * model.mechanism.X_PT;
+      const Vector3 arm = X_MT.R * tool.mass->at, force = 4 * gravity_down;
+      Load weight;
+      weight.F << force, arm.cross(force);
+      const auto expected = loads(base.mechanism, base, home_under(base, weight));
+      const auto found = loads(base.mechanism, model, heavy);
+      REQUIRE(found.size() == expected.size());
+      for (std::size_t i = 0; i < found.size(); ++i) {
+        CAPTURE(i);
+        CHECK((found[i].wrench - expected[i].wrench).norm() < 1e-5 * (1 + expected[i].wrench.norm()));
+      }
+    }
+}
+
 TEST_CASE("a tool with a mass replaces that of [tool], and a tool without one keeps it") {
   Machine machine = tool_sample("mill3");
   machine.gravity = {gravity_down};
