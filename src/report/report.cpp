@@ -153,9 +153,10 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
   report.tolerance_mm = context.options.tolerance / mm;
   report.path_mm = measures.path_mm;
   report.before = known(measures.before);
-  if (context.facts.attribution && measures.superposition.samples() > 0)
-    report.sources = sources(measures, context.machine);
   if (context.facts.attribution) report.without_causes = measures.without_causes;
+  // Statistics of some places alone would look like those of all.
+  if (context.facts.attribution && report.before && report.without_causes.places == 0)
+    report.sources = sources(measures, context.machine);
   report.at_worst = measures.at_worst;
   if (!failure) report.corrected_percent = percent_of(measures.corrected_mm, measures.path_mm);
   report.common_shift = common_shift(context, measures);
@@ -186,7 +187,7 @@ RunReport common(const RunContext& context, const RunTally& tally, const Measure
 
 void add_residual(RunReport& report, const RunTally& tally, const Measures& measures) {
   report.after = known(measures.after);
-  if (report.facts.attribution && report.after) report.air = known(measures.air);
+  if (report.sources && report.after) report.air = known(measures.air);
   report.correction = known(measures.correction);
   report.worst = tally.path().worst(&WorstRow::after_mm);
   report.tools_off = tools_off(measures, true);
@@ -338,6 +339,8 @@ void add_sensitivity(RunReport& report, const std::vector<LoadPlace>& places,
                      const std::vector<OtherForce>& without) {
   if (!report.sensitivity) return;
   report.sensitivity->without = under_other_force(places, without).deviation;
+  if (report.facts.attribution && report.after)
+    report.air = Largest{report.sensitivity->without.max_mm, report.sensitivity->without.max_line};
   add_sensitivity(report, places, higher, lower);
 }
 

@@ -24,9 +24,9 @@ std::optional<SourcesAtWorst> largest_in(const std::vector<Waypoint>& waypoints)
   const Waypoint* largest = nullptr;
   const auto size = [](const Waypoint& w) { return w.before.head<3>().norm(); };
   for (const Waypoint& w : waypoints)
-    if (w.status == Status::converged && w.causes && (largest == nullptr || size(w) > size(*largest)))
+    if (w.status == Status::converged && knows_before(w) && (largest == nullptr || size(w) > size(*largest)))
       largest = &w;
-  if (largest == nullptr) return std::nullopt;
+  if (largest == nullptr || !largest->causes) return std::nullopt;
   return sources_at(*largest, *largest->causes);
 }
 

@@ -265,8 +265,9 @@ void PathTally::measure_end(const End& end) {
   keep_at_worst(w, m_);
   w.causes ? measure_causes(w, *w.causes, end.weight) : count_without_causes(w, m_.without_causes);
   WorstRow& row = lines_.row(w.line);
-  if (keep_worst(row.before_mm, row.at_before, w, w.before, end.operation) && w.causes)
-    row.causes = parts_of(w, *w.causes);
+  if (!keep_worst(row.before_mm, row.at_before, w, w.before, end.operation)) return;
+  row.causes.reset();
+  if (w.causes) row.causes = parts_of(w, *w.causes);
 }
 
 }  // namespace counterflex

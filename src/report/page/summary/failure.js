@@ -27,9 +27,14 @@
   /** Of a correction above the limit: by its largest cause. */
   function curesOfLimit({failure, options}) {
     const {at} = failure, size = at ? vectors.norm(at.before_mm) : 0;
-    if (!(size > options['max-correction-mm'])) return [
+    // Where the causes are not known, the message alone shows whether it is a correction or a travel.
+    const isTooLarge = at ? size > options['max-correction-mm'] : failure.what.startsWith('the correction would ');
+    if (!isTooLarge) return [
       'Move the part or the work offset (--work), so that the path is inside the travel of all axes.',
       'Check the length of the tool (--tool-length, --tool-table) and the travel in the machine file.'];
+    if (!at) return [
+      'Check the force, and the stiffness and the errors of assembly in the machine file.',
+      'If the correction is right, allow it with a larger --max-correction-mm.'];
     const [cause] = Object.entries(sizesOf(causesOf(at))).sort((a, b) => b[1] - a[1])[0];
     return [...(cures[cause] || []), `If the correction is right, allow it: --max-correction-mm ${admitting(size)}.`];
   }
