@@ -69,6 +69,11 @@ void shift_spans(Move& move, std::ptrdiff_t bytes) {
     shift_word(move.cycle->bottom_word);
     shift_word(move.cycle->retract_word);
   }
+  if (move.zone) {
+    TargetZone zone = *move.zone;
+    shift(zone.words);
+    move.zone = zone;
+  }
 }
 
 struct Overall {

@@ -41,6 +41,9 @@ std::string description(const Program& program, const Move& move) {
                         int{move.known_end[axis]}, int{move.fixed[axis]});
   if (move.arc)
     for (const auto& word : move.arc->centre_words) text += " " + number_text(program, word);
+  if (move.zone)
+    text +=
+        " zone " + program.text.substr(move.zone->words.begin, move.zone->words.end - move.zone->words.begin);
   return text + fmt::format(" feed {} offset {} tool {} in '{}'", move.feed_mm_min, move.frame, move.tool,
                             program.operations[move.operation]);
 }
@@ -128,6 +131,15 @@ std::string pocket(int count) {
 }
 
 }  // namespace
+
+TEST_CASE("zones of a robot program that is read in windows are those of the whole program") {
+  std::string text = "MODULE Job\nPROC main()\n";
+  for (int i = 0; i < 40; ++i)
+    text += fmt::format("{} [[{},0,0],[1,0,0,0],[0,0,0,0],[9E9,9E9,9E9,9E9,9E9,9E9]],v100,z{},tool0;\n",
+                        i % 5 == 4 ? "MoveJ" : "MoveL", 10 * i, i % 2 == 0 ? 5 : 10);
+  text += "ENDPROC\nENDMODULE\n";
+  for (std::size_t least_moves = 1; least_moves < 8; ++least_moves) check_windows(text, least_moves);
+}
 
 TEST_CASE("a program read in windows equals the whole program") {
   for (std::uint64_t seed = 1; seed <= 40; ++seed) {
