@@ -43,8 +43,9 @@ void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
   for (std::size_t at = value.begin; at < value.end;) {
     const Span name = ur_name_at(text, at, value.end);
     at = empty(name) ? at + 1 : name.end;
-    if (!empty(name) && r.names.functions.contains(part(text, name)) &&
-        !r.still_functions.contains(part(text, name)))
+    const std::size_t open = behind_blanks(text, name.end, value.end);
+    if (empty(name) || open >= value.end || text[open] != '(') continue;  // p[0, 0, 0, 0, 0, 0] is a pose
+    if (r.names.functions.contains(part(text, name)) && !r.still_functions.contains(part(text, name)))
       return run_function(r, line, part(text, name));
   }
 }

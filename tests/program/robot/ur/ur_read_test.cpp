@@ -229,6 +229,16 @@ TEST_CASE("a function or a thread of the program that does not move the robot le
   CHECK_FALSE(is_known_behind(body("x = 3 + elsewhere (3)\n"), call));
 }
 
+TEST_CASE("a function that is named as poses begin is called by its brackets alone") {
+  for (const char* name : {"p", "prog"}) {
+    const Program program =
+        read_ur(std::string("def ") + name + "():\nmovel(p[0,0,0,0,0,0])\nmovel(p[0.1,0,0,0,0,0])\nend\n");
+    CHECK(program.left_alone.empty());
+    REQUIRE(program.moves.size() == 2);
+    CHECK(all_known(program.moves[1].known_start));
+  }
+}
+
 TEST_CASE("another tool makes the position unknown, the same tool does not") {
   const Program program = read_ur_statements(
       "tool = p[0,0,0.1,0,0,0]\n"
