@@ -248,6 +248,15 @@ TEST_CASE(
   CHECK_FALSE(program.moves[3].known_start[2]);
 }
 
+TEST_CASE("siemens: a motion that is not supported is named in the reason") {
+  for (const char* block : {"CIP X50 Y20 I1=30 J1=18", "CT X50 Y20", "BSPLINE X50 Y20"}) {
+    CAPTURE(block);
+    const Program program = siemens(std::string(siemens_start) + "G1 X5 F100\n" + block + "\n");
+    REQUIRE(!program.left_alone.empty());
+    CHECK(program.left_alone.back().why.starts_with("its motion is not followed (CIP, CT or a spline)"));
+  }
+}
+
 TEST_CASE("siemens: behind a D that is an expression Z is not known") {
   const auto knows_z = [](const std::string& edge) {
     const Program program = siemens(std::string(siemens_start) + "G1 X5 D1 F100\n" + edge + "\nX7\n");

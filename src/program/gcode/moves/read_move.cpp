@@ -105,7 +105,7 @@ std::string_view displacement_text(const Reading& r) {
   return r.dialect.sinumerik_words ? "G58 or G59 shifts the coordinates" : "G52 shifts the coordinates";
 }
 
-std::string_view unknown_mode_text(std::uint16_t unknown_modes) {
+std::string_view unknown_mode_text(std::uint16_t unknown_modes, bool sinumerik) {
   if ((unknown_modes & unknown_unit) != 0)
     return "its unit is unknown (a condition, a call or a '/' block may have set it)";
   if ((unknown_modes & unknown_offset) != 0)
@@ -118,6 +118,9 @@ std::string_view unknown_mode_text(std::uint16_t unknown_modes) {
     return "G93, G94 or G95 is unknown (a condition, a call or a '/' block may have set it)";
   if ((unknown_modes & unknown_tool) != 0)
     return "its tool is unknown (a condition, a call or a '/' block may have changed it)";
+  if ((unknown_modes & unknown_motion) != 0 && sinumerik)
+    return "its motion is not followed (CIP, CT or a spline), or a condition, a call or a '/' block may have "
+           "set it";
   if ((unknown_modes & unknown_motion) != 0)
     return "its motion is unknown (a condition, a call or a '/' block may have set it)";
   if ((unknown_modes & unknown_plane) != 0)
@@ -272,7 +275,8 @@ std::string_view why_not_followed(const Reading& r) {
     unknown_modes &= static_cast<std::uint16_t>(~unknown_plane);
   if (!any && !arc) unknown_modes &= static_cast<std::uint16_t>(~unknown_centres);
   if (r.state.motion != MotionMode::cycle) unknown_modes &= static_cast<std::uint16_t>(~unknown_level);
-  return unknown_modes != 0 ? unknown_mode_text(unknown_modes) : std::string_view();
+  return unknown_modes != 0 ? unknown_mode_text(unknown_modes, r.dialect.sinumerik_words)
+                            : std::string_view();
 }
 
 bool has_known_orientation(const ModalState& state) {
