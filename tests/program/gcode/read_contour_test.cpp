@@ -57,6 +57,11 @@ TEST_CASE("a contour does not extend back over a machine position or a tool chan
   CHECK(groups_of("X2\nT1 M6\nZ1\nG41 D1 X3 Y1\nG40 X2 Y2\n") == Groups{0, 0, 1, 1, 1});
 }
 
+TEST_CASE("an arc before a contour, or before its plunge, is not part of it") {
+  CHECK(groups_of("X2\nG1 Z0\nG2 X3 I0.5\nG41 D1 G1 X4 Y1\nG40 X5 Y2\n") == Groups{0, 0, 0, 0, 1, 1});
+  CHECK(groups_of("X2\nG1 Z0\nG2 X3 I0.5\nG1 Z-1\nG41 D1 X4 Y1\nG40 X5 Y2\n") == Groups{0, 0, 0, 0, 1, 1, 1});
+}
+
 TEST_CASE("a move that cannot be followed is not part of a contour") {
   CHECK(groups_of("X2\nG1 Z0\nG41 D1 X3\nX#1\nX4\nG40 X2\n") == Groups{0, 1, 1, 1, 0, 1, 1});
 }

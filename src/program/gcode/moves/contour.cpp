@@ -62,7 +62,8 @@ std::size_t first_before_contour(const Program& program, std::size_t run_begin) 
   const bool goes_back = first == 0 && program.before;  // the window before has more of them
   if (goes_back || std::ssize(moves) - static_cast<std::ptrdiff_t>(first) > most_moves_before_contour)
     return moves.size();
-  return first > run_begin ? first - 1 : first;
+  // An arc keeps its own correction: with the shift of the contour at its end alone it would not be round.
+  return first > run_begin && !moves[first - 1].arc ? first - 1 : first;
 }
 
 void apply_cutter(Reading& r) {
