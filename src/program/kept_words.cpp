@@ -98,11 +98,11 @@ std::string PositionWords::of(Span line) const {
 std::optional<std::string> line_of_guard(const Program& program, std::size_t begin) {
   const std::string_view text = program.text;
   std::string_view line = text.substr(begin, std::min(text.find('\n', begin), text.size()) - begin);
-  const bool tp = program.dialect == tp_name;
-  if (tp) line.remove_prefix(std::min(line.find(':'), line.size()));
+  const bool is_tp = program.dialect == tp_name;
+  if (is_tp) line.remove_prefix(std::min(line.find(':'), line.size()));
   if (program.dialect == klartext_name)
     line.remove_prefix(std::min(line.find_first_not_of(" 0123456789"), line.size()));
-  if (!(tp ? is_tp_guard_line(text, begin) : is_guard_line(line))) return std::nullopt;
+  if (!(is_tp ? is_tp_guard_line(text, begin) : is_guard_line(line))) return std::nullopt;
   return std::string(line.substr(0, line.find_last_not_of(" \t\r") + 1));
 }
 

@@ -34,9 +34,9 @@ struct Outline {
 /// programs.
 class OutlineScan {
  public:
-  /// `harmless` as in ReadOptions.
-  OutlineScan(const Dialect& dialect, const CallNames& harmless)
-      : dialect_(dialect), harmless_(harmless), rapid_(harmless), krl_(harmless) {}
+  /// `names`: `harmless_calls` of ReadOptions.
+  OutlineScan(const Dialect& dialect, const CallNames& names)
+      : dialect_(dialect), harmless_(names), rapid_(names), krl_(names) {}
   /// Whether programs in the dialect can have such properties.
   bool may_find() const;
   void add(std::string_view blocks);

@@ -92,9 +92,9 @@ std::string guard_number(double value) {
 }
 
 GuardedValue guarded_value(double value_mm, double window_mm, LengthUnit unit) {
-  constexpr double digits = 1e6, rounding = 1e-6;
+  constexpr double steps = 1e6, rounding = 1e-6;
   const double value = value_mm / mm_per(unit);
-  const double window = std::floor(window_mm / mm_per(unit) * digits + rounding) / digits;
+  const double window = std::floor(window_mm / mm_per(unit) * steps + rounding) / steps;
   const std::string_view name = unit == LengthUnit::inches ? "INCH" : "MM";
   return {guard_number(value), guard_number(window),
           fmt::format("{} TO {} {}", guard_number(value - window), guard_number(value + window), name)};

@@ -45,8 +45,8 @@ struct KrlFacts {
 /// Scans the routines of a file, in portions of whole lines. Data lists have no routines.
 class KrlScan {
  public:
-  /// `harmless`: routines of other files that neither move the robot nor change its state.
-  explicit KrlScan(const CallNames& harmless) : harmless_(harmless) {}
+  /// `names`: routines of other files that neither move the robot nor change its state.
+  explicit KrlScan(const CallNames& names) : harmless_(names) {}
   void add(std::string_view lines);
   KrlFacts finish();
 

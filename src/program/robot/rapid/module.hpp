@@ -75,7 +75,7 @@ class RapidModule {
 /// and what the others need from far lines. Lines are added in portions.
 class RapidScan {
  public:
-  explicit RapidScan(const CallNames& harmless) : still_(harmless) {}
+  explicit RapidScan(const CallNames& names) : still_(names) {}
   void add(std::string_view lines);
   bool depends_on_far_lines() const { return far_; }
 

@@ -17,8 +17,8 @@ using RapidNames = std::set<std::string, std::less<>>;  ///< in upper case
 /// of the module that they call. The statements of the module are added in order.
 class StillRoutines {
  public:
-  /// `harmless`: routines of other modules that neither move the robot nor change its state.
-  explicit StillRoutines(const CallNames& harmless) : harmless_(harmless) {}
+  /// `names`: routines of other modules that neither move the robot nor change its state.
+  explicit StillRoutines(const CallNames& names) : harmless_(names) {}
   void add(std::string_view text, const RapidStatement& statement);
 
   /// The names of these routines.
