@@ -102,8 +102,7 @@ TEST_CASE("a call that is stated as harmless leaves position, feed and state, an
     CHECK(stated.remarks.back().what.starts_with("assumed: '"));
     CHECK(
         stated.remarks.back().what.ends_with("neither moves the machine nor changes its state, as [program] "
-                                             "harmless_calls of the machine file has "
-                                             "it"));
+                                             "harmless_calls of the machine file states"));
   }
 }
 

@@ -179,8 +179,8 @@ void describe_settings(const Machine& machine, std::string& text) {
                               machine.control.units.empty() ? "not stated" : machine.control.units,
                               tool_change_phrase(machine.control)));
   if (!machine.control.harmless_calls.empty())
-    line("calls", fmt::format("{} neither move the machine nor change its state; stated by the file",
-                              fmt::join(machine.control.harmless_calls, ", ")));
+    line("calls",
+         fmt::format("harmless, as the file states: {}", fmt::join(machine.control.harmless_calls, ", ")));
   if (machine.kinematics != ControlKinematics::unstated) line("controller", kinematics_phrase(machine));
   if (!machine.already_corrects.empty()) line("corrects", corrects_phrase(machine));
   if (machine.joint_values_as_shown)

@@ -76,7 +76,7 @@ bool is_stated_harmless(Program& program, const ReadOptions& options, int line, 
   if (!options.harmless_calls.contains(known)) return false;
   add_remark(program, line,
              fmt::format("assumed: '{}' neither moves the machine nor changes its state, as [program] "
-                         "harmless_calls of the machine file has it",
+                         "harmless_calls of the machine file states",
                          name));
   return true;
 }
