@@ -1,5 +1,6 @@
 #pragma once
 /// Calls, poses and names of URScript, as spans of the text.
+#include <algorithm>
 #include <array>
 #include <optional>
 #include <string_view>
@@ -51,6 +52,18 @@ std::optional<RobotNumber> ur_number(std::string_view text, Span value);
 
 /// The name at byte `at`: letters, digits and '_'. Empty without one.
 Span ur_name_at(std::string_view text, std::size_t at, std::size_t end);
+
+/// Calls `visit` with the span of each name in `code`, but not with those in strings.
+template <typename Visit>
+void visit_ur_names(std::string_view text, Span code, const Visit& visit) {
+  bool quoted = false;
+  for (std::size_t at = code.begin; at < code.end;) {
+    if (text[at] == '"') quoted = !quoted;
+    const Span name = ur_name_at(text, at, code.end);
+    at = std::max(at + 1, name.end);
+    if (name.end > name.begin && !quoted) visit(name);
+  }
+}
 
 /// The pose or the name in a target: of "P1", "pose_trans(plane, P1)" and "get_inverse_kin(P1, qnear=Q1)" it
 /// is "P1".

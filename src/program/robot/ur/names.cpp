@@ -10,18 +10,13 @@ namespace {
 
 /// Counts the names in `code` from `at` on, but not in strings.
 void count_names(std::string_view text, Span code, UrNames& names) {
-  bool quoted = false;
-  for (std::size_t at = code.begin; at < code.end;) {
-    if (text[at] == '"') quoted = !quoted;
-    const Span name = ur_name_at(text, at, code.end);
-    at = empty(name) ? at + 1 : name.end;
-    if (empty(name) || quoted) continue;
+  visit_ur_names(text, code, [&](Span name) {
     const auto found = names.variables.find(part(text, name));
     if (found == names.variables.end())
       names.variables[std::string(part(text, name))].read = 1;
     else
       ++found->second.read;
-  }
+  });
 }
 
 void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {

@@ -63,14 +63,10 @@ using Calls = std::map<std::string, UrFunctions, std::less<>>;  ///< names that 
 
 /// The names in `code` that an opening bracket follows, outside of strings.
 void add_calls(std::string_view text, Span code, UrFunctions& calls) {
-  bool quoted = false;
-  for (std::size_t at = code.begin; at < code.end;) {
-    if (text[at] == '"') quoted = !quoted;
-    const Span name = ur_name_at(text, at, code.end);
-    at = empty(name) ? at + 1 : name.end;
+  visit_ur_names(text, code, [&](Span name) {
     const std::size_t open = behind_blanks(text, name.end, code.end);
-    if (!empty(name) && !quoted && open < code.end && text[open] == '(') calls.emplace(part(text, name));
-  }
+    if (open < code.end && text[open] == '(') calls.emplace(part(text, name));
+  });
 }
 
 Calls calls_of_functions(std::string_view text) {
