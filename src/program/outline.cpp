@@ -85,16 +85,27 @@ bool jumps_in(std::string_view lines) {
   return false;
 }
 
+/// "POCKET" of "PROC POCKET(REAL A) SAVE" and "%_N_POCKET_SPF"; empty for other lines.
+std::string_view sinumerik_program_in(std::string_view line) {
+  constexpr std::string_view proc = "PROC", sign = "%_N_";
+  line.remove_prefix(std::min(line.find_first_not_of(" \t"), line.size()));
+  const bool is_proc = is_word(line.substr(0, proc.size()), proc);
+  if (!is_proc && !is_word(line.substr(0, sign.size()), sign)) return {};
+  line.remove_prefix(is_proc ? std::min(line.find_first_not_of(" \t", proc.size()), line.size())
+                             : sign.size());
+  const auto end = std::ranges::find_if_not(line, is_identifier_character);
+  const std::string_view name = line.substr(0, static_cast<std::size_t>(end - line.begin()));
+  const std::string_view ending = name.substr(name.size() - std::min<std::size_t>(name.size(), 4));
+  const bool has_ending = !is_proc && (is_word(ending, "_SPF") || is_word(ending, "_MPF"));
+  return name.substr(0, name.size() - (has_ending ? ending.size() : 0));
+}
+
 /// The name of the program that a line of G-code defines, in upper case: "O100" of "O0100" and "o100 sub",
-/// "POCKET" of "o<pocket> sub", "PROC POCKET(REAL A)" and "%_N_POCKET_SPF". Empty for other lines.
+/// "POCKET" of "o<pocket> sub". Empty for other lines.
 std::string program_defined_in(std::string_view line, const Dialect& dialect) {
+  if (dialect.sinumerik_words) return upper_case(sinumerik_program_in(line));
   std::string code = upper_case(line.substr(0, line.find_first_of("(;")));
   std::erase_if(code, [](char c) { return is_blank(c) || c == '\r'; });
-  if (dialect.sinumerik_words) {
-    for (const std::string_view begin : {"PROC", "%_N_"})
-      if (code.starts_with(begin)) return code.substr(begin.size(), code.rfind("_SPF") - begin.size());
-    return {};
-  }
   if (!code.starts_with('O') || (dialect.o_words && !code.ends_with("SUB"))) return {};
   if (code.starts_with("O<")) return code.substr(2, code.find('>') - 2);
   const std::size_t begin = std::min(code.find_first_not_of('0', 1), code.size());

@@ -202,6 +202,8 @@ TEST_CASE("a subprogram of the text is not harmless, also where its name is stat
   CHECK(is_stated("siemens", "CLAMPS", siemens));
   CHECK_FALSE(is_stated("siemens", "CLAMPS", "%_N_MAIN_MPF\n" + siemens + "%_N_CLAMPS_SPF\nG91 X3\nM17\n"));
   CHECK_FALSE(is_stated("siemens", "CLAMPS", siemens + "PROC CLAMPS(REAL A)\nG91 X3\nM17\n"));
+  CHECK_FALSE(is_stated("siemens", "CLAMPS", siemens + " proc clamps SAVE DISPLOF\r\nG91 X3\nM17\n"));
+  CHECK(is_stated("siemens", "CLAMPS", siemens + "PROC CLAMPS2 SAVE\nG91 X3\nM17\n"));
 }
 
 TEST_CASE("CALL and RUN of FANUC TP are not parts of names") {

@@ -19,6 +19,14 @@ void count_names(std::string_view text, Span code, UrNames& names) {
   });
 }
 
+/// The names in `code` that an opening bracket follows.
+void add_calls(std::string_view text, Span code, UrFunctions& calls) {
+  visit_ur_names(text, code, [&](Span name) {
+    const std::size_t open = behind_blanks(text, name.end, code.end);
+    if (open < code.end && text[open] == '(') calls.emplace(part(text, name));
+  });
+}
+
 void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
   UrVariable& variable = names.variables[std::string(part(text, assignment.variable))];
   variable.values.push_back(assignment.value);
@@ -55,21 +63,26 @@ std::optional<UrAssignment> ur_assignment(std::string_view text, Span code) {
 
 UrNames ur_names(std::string_view text) {
   UrNames names;
-  int depth = 0, depth_of_program = 0;
+  std::vector<UrFunctions*>
+      bodies;  // of the open ones: the calls of their function; null outside of functions
+  std::size_t depth_of_program = 0;
   RobotLine line;
   while (next_robot_line(text, ur_comment, line)) {
     if (empty(line.code) || text[line.code.begin] == '$') continue;
     const Span head = ur_name_at(text, line.code.begin, line.code.end);
     const std::string_view word = part(text, head);
+    UrFunctions* const function = bodies.empty() ? nullptr : bodies.back();
     if (ur_begins_function(word)) {
       const Span name = ur_name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
-      names.functions.emplace(part(text, name));
-      if (depth == 0) depth_of_program = word == "def" ? 1 : 0;
+      if (bodies.empty()) depth_of_program = word == "def" ? 1 : 0;
+      bodies.push_back(&names.functions[std::string(part(text, name))]);
+    } else {
+      if (ur_opens_body(word)) bodies.push_back(function);
+      if (function != nullptr) add_calls(text, line.code, *function);
     }
-    if (ur_opens_body(word)) ++depth;
-    if (word == "end") depth = std::max(depth - 1, 0);
+    if (word == "end" && !bodies.empty()) bodies.pop_back();
     const auto assignment = ur_assignment(text, line.code);
-    if (assignment) add_assignment(text, *assignment, depth > depth_of_program, names);
+    if (assignment) add_assignment(text, *assignment, bodies.size() > depth_of_program, names);
     count_names(text, assignment ? assignment->value : line.code, names);
   }
   return names;

@@ -23,7 +23,8 @@ using UrFunctions = std::set<std::string, std::less<>>;  ///< names of functions
 
 struct UrNames {
   std::map<std::string, UrVariable, std::less<>> variables;
-  UrFunctions functions;  ///< functions and threads that the text defines
+  /// Functions and threads that the text defines, with the functions that each calls.
+  std::map<std::string, UrFunctions, std::less<>> functions;
   /// Where the text calls a function that it does not define, before the statement that is read. It might
   /// assign variables.
   std::size_t last_unknown_call = 0;

@@ -16,7 +16,7 @@ UrReader::UrReader(const std::string& file, const ReadOptions& options, const Di
 void UrReader::read_statement(const RobotLine& line) {
   if (!names_are_known_) {
     ur_.names = ur_names(program().text);
-    ur_.still_functions = ur_still_functions(program().text, reading().options.harmless_calls);
+    ur_.still_functions = ur_still_functions(ur_.names, reading().options.harmless_calls);
   }
   names_are_known_ = true;
   read_ur_statement(ur_, line);

@@ -2,10 +2,7 @@
 
 #include <algorithm>
 #include <array>
-#include <map>
-#include <vector>
 
-#include "program/text/lex.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -59,37 +56,6 @@ constexpr auto computing = std::to_array<std::string_view>({"sin",        "cos",
 constexpr auto operators = std::to_array<std::string_view>(
     {"if", "elif", "while", "for", "in", "switch", "case", "return", "not", "and", "or", "xor"});
 
-using Calls = std::map<std::string, UrFunctions, std::less<>>;  ///< names that the body of a function calls
-
-/// The names in `code` that an opening bracket follows, outside of strings.
-void add_calls(std::string_view text, Span code, UrFunctions& calls) {
-  visit_ur_names(text, code, [&](Span name) {
-    const std::size_t open = behind_blanks(text, name.end, code.end);
-    if (open < code.end && text[open] == '(') calls.emplace(part(text, name));
-  });
-}
-
-Calls calls_of_functions(std::string_view text) {
-  Calls functions;
-  std::vector<UrFunctions*> bodies;  ///< of the open ones: the calls of the function in which they are
-  RobotLine line;
-  while (next_robot_line(text, ur_comment, line)) {
-    if (empty(line.code) || text[line.code.begin] == '$') continue;
-    const Span head = ur_name_at(text, line.code.begin, line.code.end);
-    const std::string_view word = part(text, head);
-    if (ur_begins_function(word)) {
-      const Span name = ur_name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
-      bodies.push_back(&functions[std::string(part(text, name))]);
-      continue;
-    }
-    if (word == "end" && !bodies.empty()) bodies.pop_back();
-    if (bodies.empty()) continue;
-    if (ur_opens_body(word)) bodies.push_back(bodies.back());
-    add_calls(text, line.code, *bodies.back());
-  }
-  return functions;
-}
-
 }  // namespace
 
 bool is_ur_motionless_call(std::string_view name) {
@@ -98,18 +64,17 @@ bool is_ur_motionless_call(std::string_view name) {
                              [&](std::string_view prefix) { return name.starts_with(prefix); });
 }
 
-UrFunctions ur_still_functions(std::string_view text, const CallNames& harmless) {
-  const Calls functions = calls_of_functions(text);
+UrFunctions ur_still_functions(const UrNames& names, const CallNames& harmless) {
   UrFunctions still;
-  for (const auto& entry : functions) still.insert(entry.first);
+  for (const auto& entry : names.functions) still.insert(entry.first);
   const auto moves = [&](const std::string& called) {
-    if (functions.contains(called)) return !still.contains(called);
+    if (names.functions.contains(called)) return !still.contains(called);
     return std::ranges::find(computing, called) == computing.end() &&
            std::ranges::find(operators, called) == operators.end() && !is_ur_motionless_call(called) &&
            !harmless.contains(upper_case(called));
   };
   const auto calls_motion = [&](const std::string& function) {
-    return std::ranges::any_of(functions.find(function)->second, moves);
+    return std::ranges::any_of(names.functions.find(function)->second, moves);
   };
   while (std::erase_if(still, calls_motion) > 0) {
   }

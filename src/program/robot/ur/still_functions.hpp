@@ -10,8 +10,8 @@ namespace counterflex {
 /// Whether the control has a function `name` that does not move the robot and keeps its tool.
 bool is_ur_motionless_call(std::string_view name);
 
-/// The functions and threads of `text` that call nothing else than such functions, routines that are stated
+/// The functions and threads of a text that call nothing else than such functions, routines that are stated
 /// as `harmless`, and each other.
-UrFunctions ur_still_functions(std::string_view text, const CallNames& harmless);
+UrFunctions ur_still_functions(const UrNames& names, const CallNames& harmless);
 
 }  // namespace counterflex
