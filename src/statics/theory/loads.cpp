@@ -82,42 +82,33 @@ void add_series(const Series& series, int columns, const SeriesState& state, Cha
   }
 }
 
-// From where the first `parts` parts of a series end to its end, axes of its start frame.
-Vector3 arm_behind(const Series& series, std::size_t parts, const SeriesState& state) {
+// Where the first `parts` parts of a series end, in its start frame.
+Pose end_of(const Series& series, std::size_t parts, const SeriesState& state) {
   Pose X;
-  Vector3 p = Vector3::Zero();
-  for (std::size_t i = 0; i <= series.parts.size(); ++i) {
-    if (i == parts) p = X.p;
-    if (i < series.parts.size()) X = X * part_pose(series.parts[i], state, everything);
-  }
-  return X.p - p;
+  for (std::size_t i = 0; i < parts; ++i) X = X * part_pose(series.parts[i], state, everything);
+  return X;
 }
 
-// The tool hangs on the platform, and its mass is the last one of the first chain: its weight at the point
-// where the first `parts` parts end, axes of the start frame.
-Vector6 tool_weight(const Series& series, std::size_t parts, const SeriesState& state,
+// The weight of the tool, which hangs on the platform: its mass is the last one of the first chain. At `p` of
+// the start frame, in its axes.
+Vector6 tool_weight(const Series& series, const Vector3& p, const SeriesState& state,
                     const Vector3& gravity) {
-  Pose X;
-  Vector3 p = Vector3::Zero(), p_mass = Vector3::Zero();
-  double mass = 0;
-  for (std::size_t i = 0; i <= series.parts.size(); ++i) {
-    if (i == parts) p = X.p;
-    if (i == series.parts.size()) break;
-    const Part& part = series.parts[i];
-    if (part.kind == PartKind::mass) mass = part.mass, p_mass = X * part.X.p;
-    X = X * part_pose(part, state, everything);
-  }
+  std::size_t i = series.parts.size() - 1;
+  while (series.parts[i].kind != PartKind::mass) --i;
   Vector6 weight = Vector6::Zero();
-  weight.head<3>() = mass * gravity;
-  return wrench_at(weight, p_mass - p);
+  weight.head<3>() = series.parts[i].mass * gravity;
+  return wrench_at(weight, end_of(series, i, state) * series.parts[i].X.p - p);
 }
 
-// Of `series` as far as it is `base`: a tool's parts follow those of its chain.
+// Of `series` as far as it is `base`: a tool's parts follow those of its chain. `gravity`: that acts on the
+// mass of the tool, if the chain has it.
 ChainLoads chain_loads(const Series& base, const Series& series, const SeriesState& state,
-                       const Vector6& weight_on_end) {
+                       const std::optional<Vector3>& gravity) {
   ChainLoads chain;
   chain.name = series.name;
-  chain.wrench = wrench_at(state.F, arm_behind(series, base.parts.size(), state)) + weight_on_end;
+  const Vector3 p = end_of(series, base.parts.size(), state).p;
+  chain.wrench = wrench_at(state.F, end_of(series, series.parts.size(), state).p - p);
+  if (gravity) chain.wrench += tool_weight(series, p, state, *gravity);
   chain[LoadKind::moment] = largest(chain.wrench.tail<3>());
   add_series(series, base.columns, state, chain);
   return chain;
@@ -168,10 +159,8 @@ std::vector<ChainLoads> loads(const Mechanism& base, const Model& model, const C
   std::vector<ChainLoads> all;
   for (std::size_t i = 0; i < chains.size(); ++i) {
     const bool carries_tool = i == 0 && mechanism.ends_with_tool_mass;
-    const Vector6 weight =
-        carries_tool ? tool_weight(chains[0], base.chains[0].parts.size(), states[0], mechanism.gravity)
-                     : Vector6(Vector6::Zero());
-    all.push_back(chain_loads(base.chains[i], chains[i], states[i], weight));
+    all.push_back(chain_loads(base.chains[i], chains[i], states[i],
+                              carries_tool ? std::optional(mechanism.gravity) : std::nullopt));
   }
   return all;
 }
