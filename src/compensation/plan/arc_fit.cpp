@@ -25,6 +25,11 @@ struct Sample {
   Vector3 p_mm;  // commanded
 };
 
+// The fraction of a place near that of `u`.
+double fraction_along(const ArcTask& task, double u, const Vector3& place) {
+  return u + (place - task.commanded(u)).dot(direction_at(task.source, u)) / length(task.source);
+}
+
 // The fraction of a written end of a piece: rounding moves it along the curve. The ends of the stretch keep
 // theirs, and so do corners, to rounding: as where the text is read back.
 double fraction_at(const ArcTask& task, double u, const Vector3& written) {
@@ -32,8 +37,7 @@ double fraction_at(const ArcTask& task, double u, const Vector3& written) {
   const Vector3 off_mm = written - task.commanded(u);
   const double rounding_mm = roundings * rounding_allowance(task.move, task.options) / mm;
   if (std::ranges::count(task.corners, u) > 0 && off_mm.norm() <= rounding_mm) return u;
-  const double along_mm = off_mm.dot(direction_at(task.source, u));
-  return u + along_mm / length(task.source);
+  return fraction_along(task, u, written);
 }
 
 // `u0` and `u1`: fractions at the ends of a piece.
@@ -115,7 +119,13 @@ class PieceFit {
     return best;
   }
 
-  FittedArc run_polar() const { return written(kept_, start_ + task_.source.end - task_.source.start); }
+  // The words decide where it ends. A line may lead from there to the planned end: where the text is read
+  // back the arc is then the piece of the way up to that place, and not the whole.
+  FittedArc run_polar() const {
+    FittedArc fit = written(kept_, start_ + task_.source.end - task_.source.start);
+    if (fit.read.arc) fit.miss_mm = std::max(fit.miss_mm, miss_of(fit.read, samples_to(fit.read.end)));
+    return fit;
+  }
 
  private:
   FittedArc written(const Vector3& centre) const { return written(centre, end_); }
@@ -126,6 +136,12 @@ class PieceFit {
     fit.sound = is_sound(task_, piece_, fit.read);
     fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
     return fit;
+  }
+
+  // For an arc from whose end `end` a line leads to the end of the move.
+  std::vector<Sample> samples_to(const Vector3& end) const {
+    const double u = fraction_along(task_, piece_.u1, end);
+    return samples_of(task_, fraction_at(task_, piece_.u0, start_), std::min(u, piece_.u1));
   }
 
   static void take_better(const FittedArc& other, FittedArc& best) {

@@ -44,7 +44,7 @@ struct FittedArc {
   std::optional<Vector3> step_mm{};  ///< a line to this point, above or below the start, goes first
   Via via;
   Curve read;  ///< what a control reads
-  /// From the commanded curve, at corners and 16 places or more, at most 11.25 degrees apart.
+  /// From the commanded curve, at corners and 16 places or more, at most 22.5 degrees apart.
   double miss_mm = 0;
   bool sound = false;  ///< radius rules of controls hold, and its sweep is the wanted one
 };
@@ -58,7 +58,8 @@ FittedArc fit_arc(const ArcTask& task, const ArcPiece& piece);
 /// changes nothing is as the original.
 bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& read);
 
-/// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start.
+/// The whole of an arc of polar coordinates, which keeps them: only its pole is shifted with its start. It
+/// may end beside its planned end. Its miss is the larger one of that with and without a line behind it.
 FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);
 
 /// Whether nothing in the block's words changes when it is written as `fit`.

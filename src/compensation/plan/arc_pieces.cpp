@@ -174,6 +174,7 @@ class ArcDivider {
     if (task_.chord_room_mm <= 0) {
       result_.lack_digits = true;
     } else {
+      if (task_.move.arc->flat) put_height(chords_->u0);
       // Knots are judged at sixteenths of the way between them, which must not be whole turns.
       const double turns = (u1 - chords_->u0) * task_.source.arc->sweep / (2 * std::numbers::pi);
       const int parts = std::max(1, static_cast<int>(std::ceil(turns - 1e-9)));
@@ -185,6 +186,16 @@ class ArcDivider {
       }
     }
     chords_.reset();
+  }
+
+  // A flat arc may have left the tool above or below the place where chords begin.
+  void put_height(double u) {
+    const int normal = task_.move.arc->normal;
+    Vector3 p = *held_.place_mm();
+    const double height = task_.commanded(u)[normal], off_mm = std::abs(height - p[normal]);
+    if (off_mm <= rounding_allowance(task_.move, task_.options) / mm) return;
+    p[normal] = height;
+    put({p}, u, end_of({p}, u));
   }
 
   void put_chords_between(double u0, double u1) {

@@ -128,3 +128,18 @@ TEST_CASE("the turns of a helix are in its last piece, where the block itself is
   REQUIRE(arcs_in(result.text).size() == 2);
   CHECK(arcs_in(result.text)[1].arc->turns == 2);
 }
+
+TEST_CASE("klartext: a helix along whose start the force grows is written at each tolerance") {
+  const Vector6 F = (Vector6() << 30, 10, -20, 0, 0, 0).finished();
+  Order order{.machine = load_machine(small_mill),
+              .text =
+                  "BEGIN PGM A MM\nTOOL CALL 1 Z S1000 F250\nL X-9.87 Y+1.092 Z+2 R0 FMAX\nL Z-0.444 "
+                  "FMAX\nCC X-6.7432 Y-2.1442\nCP IPA+1053.633 IZ-1.44444 DR+\nL X-14.85 Y+0 Z-1.889\n"
+                  "L Z+10 FMAX\nEND PGM A MM\n",
+              .force = constant_force(F)};
+  order.read.dialect = "heidenhain";
+  for (order.tolerance = 2e-6; order.tolerance < 13e-6; order.tolerance += 0.3e-6) {
+    CAPTURE(order.tolerance);
+    CHECK(!compensated(Shop(order)).text.empty());
+  }
+}
