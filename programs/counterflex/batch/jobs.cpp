@@ -52,6 +52,16 @@ double work_of(const BatchJob& job) {
   return work;
 }
 
+/// The data lists that a job writes only if they change.
+std::vector<std::string> lists_if_changed(const BatchJob& job) {
+  std::vector<std::string> lists;
+  const std::vector<std::string> read = files_of_program(job.program, job.options.data_lists);
+  for (std::size_t i = 1; i < read.size(); ++i)
+    if (!belongs_to_control(read[i]) && !is_same_file(read[i], data_list_beside(job.program)))
+      lists.push_back(corrected_list(read[i], job.program, job.output));
+  return lists;
+}
+
 /// The jobs found so far, and their files; the outputs must differ.
 class JobList {
  public:
@@ -96,6 +106,7 @@ class JobList {
     job.options.project_file = find_project_file(program).value_or("");
     job.options.force_overwrite = job.options.force_overwrite || whole_.force_overwrite;
     job.output = *job.options.output;
+    for (const std::string& list : lists_if_changed(job)) job.shared_lists.push_back(canonical_name(list));
     job.key = key_of(layers, job);
     job.work = work_of(job);
     for (const std::string& file : inputs_of(job.options))
@@ -175,10 +186,7 @@ std::vector<std::string> outputs_of(const BatchJob& job) {
 
 std::vector<std::string> files_written(const BatchJob& job) {
   std::vector<std::string> files = outputs_of(job);
-  const std::vector<std::string> read = files_of_program(job.program, job.options.data_lists);
-  for (std::size_t i = 1; i < read.size(); ++i)
-    if (!belongs_to_control(read[i]) && !is_same_file(read[i], data_list_beside(job.program)))
-      files.push_back(corrected_list(read[i], job.program, job.output));
+  for (std::string& list : lists_if_changed(job)) files.push_back(std::move(list));
   return files;
 }
 

@@ -13,6 +13,9 @@ struct BatchJob {
   Options options;              ///< of `compensate`
   std::string key;              ///< of the outcome: SHA-256 of version, options and paths
   double work = 0;              ///< relative cost: bytes of the program, weighted by method and causes
+  /// Canonical names of the data lists that the job writes if it changes them. Jobs that have one of them in
+  /// common run one after the other, in the order of the batch: the first that changes it writes it.
+  std::vector<std::string> shared_lists{};
 };
 
 /// All files that a job writes, without data lists that are written only if they change.

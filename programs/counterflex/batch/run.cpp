@@ -7,6 +7,7 @@
 #include <cstddef>
 #include <filesystem>
 #include <functional>
+#include <map>
 #include <numeric>
 #include <utility>
 #include <vector>
@@ -39,6 +40,19 @@ std::vector<std::size_t> missing_jobs(const BatchManifest& manifest) {
   return missing;
 }
 
+/// By job: the last ones before it that have one of its data lists.
+std::vector<std::vector<std::size_t>> users_before(const BatchJobs& jobs) {
+  std::vector<std::vector<std::size_t>> before(jobs.size());
+  std::map<std::string, std::size_t> last_user;
+  for (std::size_t job = 0; job < jobs.size(); ++job)
+    for (const std::string& list : jobs[job]->shared_lists) {
+      const auto [user, is_first] = last_user.try_emplace(list, job);
+      if (!is_first && user->second != job) before[job].push_back(user->second);
+      user->second = job;
+    }
+  return before;
+}
+
 /// Fails a job that has written `path`, as the job of the program `other` has. Removes its outputs: one of
 /// them has the contents of the other job.
 void fail_for_shared(const std::string& path, const std::string& other, JobOutcome& outcome) {
@@ -61,6 +75,8 @@ class JobsRun {
   JobsRun(BatchManifest& manifest, int threads, JobFiles& files, Console& console)
       : manifest_(manifest),
         missing_(missing_jobs(manifest)),
+        before_(users_before(manifest.jobs())),
+        waiting_(missing_.size()),
         threads_(threads),
         files_(files),
         console_(console),
@@ -68,6 +84,7 @@ class JobsRun {
     for (const JobOutcome& outcome : manifest.ended())
       for (const FileHash& file : outcome.outputs)
         files_.add_output(file.path, {outcome.output, outcome.program});
+    std::iota(waiting_.begin(), waiting_.end(), std::size_t{0});
     std::vector<double> work;
     for (std::size_t task = 0; task < missing_.size(); ++task) work.push_back(job(task).work);
     large_ = large_share * std::accumulate(work.begin(), work.end(), 0.0) / threads_;
@@ -75,7 +92,7 @@ class JobsRun {
   }
 
   std::optional<int> run() {
-    while (next_ < missing_.size() || workers_.running() > 0) {
+    while (!waiting_.empty() || workers_.running() > 0) {
       start_some();
       for (const WorkerEvent& event : workers_.wait(&signals_, tick_ms)) {
         take(event);
@@ -104,12 +121,19 @@ class JobsRun {
   const BatchJob& job(std::size_t task) const { return *manifest_.jobs()[missing_[task]]; }
   bool is_large(std::size_t task) const { return threads_ > 1 && job(task).work > large_; }
 
+  bool may_start(std::size_t task) const {
+    return std::ranges::all_of(before_[missing_[task]],
+                               [&](std::size_t job) { return manifest_.outcome(job).has_value(); });
+  }
+
   void start_some() {
-    while (next_ < missing_.size() && static_cast<int>(workers_.running()) < threads_ && !alone_) {
-      alone_ = is_large(next_);
+    while (static_cast<int>(workers_.running()) < threads_ && !alone_) {
+      const auto next = std::ranges::find_if(waiting_, [&](std::size_t task) { return may_start(task); });
+      if (next == waiting_.end()) break;
+      alone_ = is_large(*next);
       if (alone_ && workers_.running() > 0) break;
-      if (!start(next_, alone_ ? threads_ : 1)) break;
-      ++next_;
+      if (!start(*next, alone_ ? threads_ : 1)) break;
+      waiting_.erase(next);
     }
   }
 
@@ -168,6 +192,8 @@ class JobsRun {
 
   BatchManifest& manifest_;
   const std::vector<std::size_t> missing_;
+  const std::vector<std::vector<std::size_t>> before_;  // by job: others that must have ended
+  std::vector<std::size_t> waiting_;                    // tasks, the largest first
   const int threads_;
   JobFiles& files_;
   Console& console_;
@@ -175,7 +201,6 @@ class JobsRun {
   Workers workers_;
   BatchProgress progress_;
   std::vector<std::optional<JobOutcome>> outcomes_;  // of those that have sent one
-  std::size_t next_ = 0;                             // task
   double large_ = 0;
   bool alone_ = false;  // a large job runs, or waits for the others to end
   std::optional<int> stopped_;

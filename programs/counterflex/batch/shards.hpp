@@ -12,7 +12,7 @@ using BatchJobs = std::vector<const BatchJob*>;
 
 BatchJobs all_jobs(const Batch& batch);
 
-/// The jobs of each of `shards` shards.
+/// The jobs of each of `shards` shards. Those with a data list in common are in one shard.
 std::vector<BatchJobs> jobs_by_shard(const Batch& batch, int shards);
 
 /// SHA-256 of the keys of all jobs and of their assignment to shards.

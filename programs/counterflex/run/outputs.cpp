@@ -220,6 +220,7 @@ OutputPaths output_paths(const Options& options) {
   check_paths(outputs, inputs_of(options), options.folders);
   paths.folders = options.folders;
   paths.job_files = options.job_files;
+  paths.force_overwrite = options.force_overwrite;
   return paths;
 }
 
@@ -250,12 +251,20 @@ OwnFile page_file(const std::string& path) {
   return marked_file(path, "content=\"counterflex\"");
 }
 
+namespace {
+
+/// A corrected data list: it has no header of its own.
+OwnFile list_file(const OutputPaths::List& list, const std::string& corrected) {
+  return {list.path, [corrected](const std::string&) { return has_corrected_header(corrected); }};
+}
+
+}  // namespace
+
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
   refuse_part_of_other(paths.program, paths.program);
   if (options.force_overwrite) return;
-  for (const OutputPaths::List& list : paths.lists)  // it has no header of its own
-    if (!belongs_to_control(list.input))
-      refuse_foreign({{list.path, [&](const std::string&) { return has_corrected_header(paths.program); }}});
+  for (const OutputPaths::List& list : paths.lists)
+    if (list.always) refuse_foreign({list_file(list, paths.program)});
   refuse_foreign({{paths.program, has_corrected_header},
                   marked_file(paths.report_json, "\"counterflex"),
                   marked_file(paths.report_csv, "index,line,cutting,s_mm"),
@@ -428,6 +437,11 @@ void RunFiles::add_report(const RunReport& report, const std::string& report_jso
       report.facts.proof ? proof_sheet(report) : "");
 }
 
+void RunFiles::refuse_changed(const OutputPaths::List& list) const {
+  if (paths_.job_files != nullptr) paths_.job_files->refuse_others(list.path, paths_.program);
+  if (!paths_.force_overwrite) refuse_foreign({list_file(list, paths_.program)});
+}
+
 std::vector<FileWriter*> RunFiles::written_lists() {
   std::vector<FileWriter*> lists;
   for (std::size_t i = 0; i < lists_.size(); ++i) {
@@ -440,8 +454,7 @@ std::vector<FileWriter*> RunFiles::written_lists() {
           ErrorKind::program_text, {list.input},
           "a target in this list is corrected, but all programs of the control use the list; copy "
           "the target into the data list of the program");
-    if (changed && !list.always && paths_.job_files != nullptr)
-      paths_.job_files->refuse_others(list.path, paths_.program);
+    if (changed && !list.always) refuse_changed(list);
     if (changed || list.always) lists.push_back(&lists_[i]);
   }
   return lists;

@@ -37,6 +37,7 @@ struct OutputPaths {
   /// Get the corrected program, and the rows of the CSV report with its header, besides the files.
   std::function<void(std::string_view)> take_program{}, take_rows{};
   const JobFiles* job_files = nullptr;  ///< of all jobs, in a batch or a watch
+  bool force_overwrite = false;         ///< replaces data lists that counterflex did not write
 };
 
 /// The paths of outputs. For `compensate` this includes the corrected program: by default NAME.comp.EXT
@@ -79,8 +80,9 @@ OwnFile marked_file(const std::string& path, std::string_view mark);
 /// counterflex.
 void refuse_foreign(const std::vector<OwnFile>& files);
 
-/// The same for the outputs of a run, unless --force-overwrite is given. A program is recognised by its
-/// header. A program that is a part of a divided one is not replaced, even with --force-overwrite.
+/// The same for the outputs of a run, unless --force-overwrite is given, but not for data lists that are
+/// written only if they change. A program is recognised by its header. A program that is a part of a divided
+/// one is not replaced, even with --force-overwrite.
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
 
 /// The outputs of `compare`; empty paths without --report.
@@ -158,8 +160,12 @@ class RunFiles {
 
  private:
   /// The data lists that have changed, and the one beside the program. Throws `InputError` if a list of the
-  /// control (ErrorKind::program_text) or of another job (ErrorKind::usage) has changed.
+  /// control (ErrorKind::program_text) has changed, and as `refuse_changed`.
   std::vector<FileWriter*> written_lists();
+
+  /// For a list that is written because it has changed. Throws `InputError` (ErrorKind::usage) if it is one
+  /// of another job, or a file that counterflex did not write.
+  void refuse_changed(const OutputPaths::List& list) const;
 
   void write_counted();
 
