@@ -11,6 +11,7 @@
 
 #include "batch/job_process.hpp"
 #include "batch/jobs.hpp"
+#include "batch/watch_record.hpp"
 #include "batch/watched_files.hpp"
 #include "commands/commands.hpp"
 #include "counterflex/batch/folder_lock.hpp"
@@ -147,11 +148,14 @@ class Watch {
       : options_(options),
         console_(console),
         files_(options.watch.folder, options.watch.patterns),
-        lock_(options.watch.folder, LockKind::exclusive, "counterflex watch") {
+        lock_(options.watch.folder, LockKind::exclusive, "counterflex watch"),
+        record_(options.watch.folder) {
     if (!lock_.locked())
       console.warning(
           options.watch.folder, 0,
           fmt::format("its file system has no locks ({}): a second watch is not refused", lock_.why_not()));
+    for (const auto& [program, outcome] : record_.programs())
+      for (const FileHash& file : outcome.outputs) owners_[file.path] = {outcome.output, program};
   }
 
   /// Returns the kind of the first error.
@@ -195,7 +199,9 @@ class Watch {
     if (!files_.is_from_start(path)) return false;
     try {
       const BatchJob job = job_for(options_, path);
-      if (!is_corrected_from(job.output, files_of_program(path, job.options.data_lists))) return false;
+      if (!is_corrected_from(job.output, files_of_program(path, job.options.data_lists)) ||
+          !has_its_list(job) || !record_.is_complete(path, job.output))
+        return false;
       claim_outputs(job);
       return true;
     } catch (const InputError&) {
@@ -203,13 +209,23 @@ class Watch {
     }
   }
 
+  static bool has_its_list(const BatchJob& job) {
+    const std::string list = data_list_beside(job.program);
+    std::error_code ignored;
+    return list.empty() || fs::exists(corrected_list(list, job.program, job.output), ignored);
+  }
+
+  /// Whether a file belongs to another program, which is still there.
+  static bool is_of_other(const OutputOwner& owner, const std::string& program) {
+    std::error_code ignored;
+    return owner.program != program && fs::exists(owner.program, ignored);
+  }
+
   /// Throws `InputError` (ErrorKind::usage) if another program of the folder has one of the outputs.
   void claim_outputs(const BatchJob& job) {
     for (const std::string& file : outputs_of(job)) {
       const auto owner = owners_.find(canonical_name(file));
-      if (owner == owners_.end() || owner->second.program == job.program ||
-          !files_.contains(owner->second.program))
-        continue;
+      if (owner == owners_.end() || !is_of_other(owner->second, job.program)) continue;
       throw InputError(ErrorKind::usage, {job.program},
                        fmt::format("its output would be {}, which is also the output of {}: give one of them "
                                    "another name, or name outputs with {{name}}{{ext}}",
@@ -228,15 +244,19 @@ class Watch {
     std::erase_if(owners_, [&](const auto& owned) { return owned.second.program == job.program; });
     set_outputs(job, outputs_of(job));
     for (const FileHash& file : outcome.outputs) set_outputs(job, {file.path});
+    std::vector<FileHash> others = outcome.outputs;
+    const std::vector<std::string> named = outputs_of(job);
+    std::erase_if(others, [&](const FileHash& file) { return std::ranges::count(named, file.path) > 0; });
+    record_.set(job.program, job.output, others);
   }
 
-  /// The programs of the folder, and the outputs of those that have been compensated.
-  JobFiles job_files() const {
+  /// The programs of the folder, and the outputs of the others that have been compensated.
+  JobFiles job_files(const std::string& program) const {
     JobFiles files;
     for (const std::string& path : files_.all())
       if (!is_own(path)) files.add_input(path);
     for (const auto& [file, owner] : owners_)
-      if (files_.contains(owner.program)) files.add_output(file, owner);
+      if (is_of_other(owner, program)) files.add_output(file, owner);
     return files;
   }
 
@@ -247,7 +267,7 @@ class Watch {
     try {
       BatchJob job = job_for(options_, path);
       claim_outputs(job);
-      const JobFiles files = job_files();
+      const JobFiles files = job_files(path);
       job.options.job_files = &files;
       outcome = outcome_of_process(job);
       set_written(job, outcome);
@@ -277,6 +297,7 @@ class Watch {
   Console& console_;
   WatchedFiles files_;
   FolderLock lock_;
+  WatchRecord record_;
   std::map<std::string, OutputOwner> owners_;  ///< by canonical name of an output
   std::map<std::string, Clock::time_point>
       retries_;  ///< failed programs that may succeed later, and when to try again
