@@ -327,6 +327,7 @@ void check_coupon_outputs(const Options& options) {
   if (fs::path(sheet).extension() != ".csv")
     throw InputError(ErrorKind::usage, {sheet}, "a sheet has a name that ends in .csv");
   refuse_existing(sheet, options.force_overwrite);
+  refuse_part_of_other(program, program);
   if (!options.force_overwrite) refuse_foreign({{program, has_corrected_header}});
 }
 

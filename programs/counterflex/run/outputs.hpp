@@ -105,7 +105,8 @@ void check_machine_output(const std::string& output, const std::vector<std::stri
 void check_map_outputs(const Options& options);
 
 /// Checks --output and --sheet of `testcut`. People fill in sheets: an existing one is replaced only with
-/// --force-overwrite. Throws as `output_paths` and `refuse_foreign`.
+/// --force-overwrite, a part of a divided program not even then. Throws as `output_paths` and
+/// `refuse_foreign`.
 void check_coupon_outputs(const Options& options);
 
 /// Checks --draw of `check`. Throws as `output_paths` and `refuse_foreign`.
