@@ -51,6 +51,7 @@ Capped<Remark> all_warnings(const RunContext& context, const RunTally& tally, co
   Capped<Remark> all;
   for (const Remark& warning : context.facts.warnings) list(all, warning);
   for (const Remark& remark : context.program.remarks) list(all, remark);
+  list(all, tally.contour_notes());
   list(all, tally.force_notes());
   list(all, tally.direction_notes());
   list_tilted(report, all);

@@ -237,6 +237,26 @@ TEST_CASE("compensations of windows add up") {
   CHECK(report.blocks.left_alone.rows.back().line == 139);
 }
 
+TEST_CASE("a narrowed contour is a warning, except for a tool that is known to fit with room to spare") {
+  const MadeUpRun run;
+  Compensation c;
+  c.narrowed = {{.line = 5, .tool = 3, .programmed_mm = 25, .written_mm = 13.838}};
+  const auto warnings_with = [&](std::optional<double> diameter) {
+    RunTally tally(2, {}, {{3, diameter, {}}});
+    tally.add_compensation(c);
+    const Overview overview = overview_of(run.program);
+    return report_compensation(run.context(overview), tally, {}).warnings;
+  };
+  CHECK(warnings_with(0.022).count == 0);
+  CHECK(contains(warnings_with(0.023).rows.at(0).what, "T3 (23 mm) leaves less"));
+  CHECK(contains(warnings_with(0.028).rows.at(0).what, "T3 (28 mm) is too large"));
+  const Capped<Remark> unknown = warnings_with({});
+  REQUIRE(unknown.count == 1);
+  CHECK(unknown.rows[0].line == 5);
+  CHECK(contains(unknown.rows[0].what, "13.83 mm"));
+  CHECK(contains(unknown.rows[0].what, "25.00 mm"));
+}
+
 TEST_CASE("of written targets with the largest correction the first is named, whatever window it is in") {
   const MadeUpRun run;
   RunTally tally(2);

@@ -20,6 +20,14 @@ struct OtherMoves {
   std::size_t left = 0;     ///< they are not changed
 };
 
+/// A contour under G41 or G42 whose blocks are divided beside an inner corner, so that less room is left
+/// there for the control's offset by the radius of the tool.
+struct NarrowedContour {
+  int line = 0;                              ///< of the divided block that leaves the least room
+  std::int32_t tool = 0;                     ///< `Move::tool`
+  double programmed_mm = 0, written_mm = 0;  ///< largest radius that passes the corners of the contour
+};
+
 /// What comes of a window. The kind of a failure is `not_compensated` (not solved, or not within the
 /// tolerance), `limit` (travel or correction) or `usage` (too few decimals).
 struct Compensation {
@@ -29,7 +37,8 @@ struct Compensation {
   std::vector<Waypoint> waypoints;  ///< of the emitted, rounded text; of windows that are not given out
   /// What the plan could not correct or split, besides the program's own list.
   std::vector<LeftAlone> left_alone;
-  Rewritten counts;  ///< its text is moved to `text`
+  std::vector<NarrowedContour> narrowed;  ///< contours of the window
+  Rewritten counts;                       ///< its text is moved to `text`
   /// Each on its own. Of a verification those alone that have no waypoint: of the others the waypoints have
   /// the correction.
   std::size_t corrected_moves = 0;

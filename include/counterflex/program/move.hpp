@@ -143,6 +143,7 @@ struct CalledCycle {
 /// of a line stay at one height, because both sides of a corner lie in one plane.
 struct CornerEnds {
   double begin_mm = 0, end_mm = 0;
+  bool end_is_round = false;  ///< the corner at its end is rounded, not chamfered
 };
 
 /// What a target states of the turns of rotary axes, beside its pose. A corrected target keeps it.
@@ -287,14 +288,16 @@ inline bool stays_flat(const Move& move) {
   return move.arc && move.arc->flat && !move.words[static_cast<std::size_t>(move.arc->normal)];
 }
 
-/// Length of the part of a line beside a corner that stays flat (mm).
+/// Length of the part of a line beside a corner that stays flat, at least (mm).
 inline double flat_part_mm(double taken_mm) {
   return taken_mm > 0 ? 1.02 * taken_mm + 0.02 : 0;
 }
 
+/// The flat parts of a line between corners are shorter than this share of it.
+inline constexpr double most_flat = 0.9;
+
 /// Whether points may be inserted between the corners of a line, at which its height changes.
 inline bool changes_height_inside(const Move& move) {
-  constexpr double most_flat = 0.9;  // of the line
   if (!move.corners || move.arc || move.stays_whole || move.exact_stop || !move.may_insert_words)
     return false;
   const double flat_mm = flat_part_mm(move.corners->begin_mm) + flat_part_mm(move.corners->end_mm);

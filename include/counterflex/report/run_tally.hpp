@@ -180,7 +180,7 @@ class RunTally {
   /// The next window's: its ramps, jumps, moves without a force and notes are added to those before.
   void add_forces(const PathForces& forces);
 
-  /// The next window's counts, left-alone blocks and size of text. Neither its waypoints
+  /// The next window's counts, left-alone blocks, narrowed contours and size of text. Neither its waypoints
   /// nor its `corrected`.
   void add_compensation(const Compensation& compensation);
 
@@ -198,6 +198,7 @@ class RunTally {
   LengthUnit unit() const { return unit_.value_or(LengthUnit::millimetres); }  ///< of the first feed move
   const ForceSummary& forces() const { return forces_; }  ///< of ramps, jumps, steps and moves without one
   const Capped<Remark>& direction_notes() const { return direction_notes_; }
+  const Capped<Remark>& contour_notes() const { return contour_notes_; }
   const Capped<Remark>& force_notes() const { return force_notes_; }
   const Capped<LeftAlone>& left_alone() const { return left_alone_; }
   std::size_t corrected_moves() const { return corrected_moves_; }
@@ -217,6 +218,7 @@ class RunTally {
   void add_to_travel(const Waypoint& w, const Job& window, double u_before);
   void add_as_programmed(const Waypoint& w);
   void add_reversals(const Job& window);
+  ToolSize size_of(long tool) const;
   MoveFacts facts_of(const Job& window, const Waypoint& w) const;
 
   double min_block_ms_;
@@ -229,6 +231,7 @@ class RunTally {
   OperationNames operation_names_;
   std::optional<LengthUnit> unit_;
   ForceSummary forces_;
+  Capped<Remark> contour_notes_;  ///< of contours that are narrowed
   Capped<Remark> force_notes_;
   Capped<Remark> direction_notes_;  ///< of reversals
   Capped<LeftAlone> left_alone_;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/emit/contour_radius.hpp"
 #include "compensation/emit/emitter.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -24,6 +25,7 @@ Emission Emitter::run() {
   }
   leave_pending_alone();
   out_.other_moves.left = job_.program.moves.size() - out_.edits.size();
+  out_.narrowed = narrowed_contours(job_, out_.edits);
   return std::move(out_);
 }
 
@@ -145,6 +147,36 @@ double slope(const Move& move, double rise_mm) {
 
 }  // namespace
 
+namespace {
+
+// By how much a control shortens a line beside a chamfer for the largest tool that passes the chamfer, as a
+// share of what the chamfer takes: 0 at outer corners of a contour, and at roundings.
+double share_for_tool(const Move& before, CutterSide side) {
+  const Move& after = *(&before + 1);
+  const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
+  if (before.corners->end_is_round || !is_inner_corner(curve_of(before), curve_of(after), side)) return 0;
+  return std::cos(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
+}
+
+}  // namespace
+
+// The flat parts of a line beside its corners. At inner corners of a contour they are longer, as far as line
+// and tolerance allow it: what the control shortens must not reach beyond them.
+CornerEnds Emitter::flat_parts_mm(std::size_t s, const EndHeights& heights) const {
+  const Move& move = job_.program.moves[job_.path.segments[s].move];
+  const double begin = flat_part_mm(move.corners->begin_mm), end = flat_part_mm(move.corners->end_mm);
+  if (move.cutter_side == CutterSide::none) return {begin, end};
+  const double room = (1 - height_share) * job_.options.tolerance / mm /
+                      std::abs(slope(move, heights.end_mm - heights.start_mm)),
+               most = (most_flat * (move.end_mm - move.start_mm).norm() - begin - end) / 2;
+  const auto lengthened = [&](double part, const Move* before) {
+    if (part == 0) return part;
+    return part +
+           std::clamp(room - part, 0.0, std::min(share_for_tool(*before, move.cutter_side) * part, most));
+  };
+  return {lengthened(begin, &move - 1), lengthened(end, &move)};
+}
+
 // The height of the corner at the end of a segment: in the middle of what both of its flat sides should
 // reach.
 double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const {
@@ -153,10 +185,9 @@ double Emitter::corner_height_mm(std::size_t s, const EndHeights& heights) const
       s + 1 < plan_.segments.size() && job_.path.segments[s + 1].move == job_.path.segments[s].move + 1;
   const auto behind = follows && next->corners ? end_heights(s + 1) : std::nullopt;
   if (!behind || !changes_height_inside(*next)) return heights.end_mm;
-  const double before_it =
-                   -flat_part_mm(move.corners->end_mm) * slope(move, heights.end_mm - heights.start_mm),
+  const double before_it = -flat_parts_mm(s, heights).end_mm * slope(move, heights.end_mm - heights.start_mm),
                behind_it =
-                   flat_part_mm(next->corners->begin_mm) * slope(*next, behind->end_mm - behind->start_mm);
+                   flat_parts_mm(s + 1, *behind).begin_mm * slope(*next, behind->end_mm - behind->start_mm);
   const double middle = (std::max({0.0, before_it, behind_it}) + std::min({0.0, before_it, behind_it})) / 2,
                most = height_share * job_.options.tolerance / mm;
   return heights.end_mm + std::clamp(middle, -most, most);
@@ -171,7 +202,8 @@ double Emitter::set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit
   const auto heights = end_heights(s);
   if (!from_mm || !heights) return 0;
   const Vector3 start_mm = *from_mm, way_mm = end_mm - start_mm;
-  const double begins_mm = flat_part_mm(move.corners->begin_mm), ends_mm = flat_part_mm(move.corners->end_mm),
+  const CornerEnds flat = flat_parts_mm(s, *heights);
+  const double begins_mm = flat.begin_mm, ends_mm = flat.end_mm,
                length_mm = (move.end_mm - move.start_mm).norm();
   const double end_height = ends_mm > 0 ? corner_height_mm(s, *heights) : end_mm.z();
   if (rounds_to_nothing(move, 2, end_height - start_mm.z())) return 0;

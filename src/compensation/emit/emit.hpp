@@ -11,6 +11,7 @@ struct Emission {
   std::size_t corrected_moves = 0;  ///< each on its own
   OtherMoves other_moves;
   std::vector<LeftAlone> left_alone;
+  std::vector<NarrowedContour> narrowed;
   std::optional<Failure> failure;
 };
 

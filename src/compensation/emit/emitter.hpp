@@ -51,6 +51,7 @@ class Emitter {
   };
   double set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit& edit);
   std::optional<EndHeights> end_heights(std::size_t s) const;
+  CornerEnds flat_parts_mm(std::size_t s, const EndHeights& heights) const;
   double corner_height_mm(std::size_t s, const EndHeights& heights) const;
 
   // emit_arc.cpp

@@ -60,6 +60,7 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   if (work.failed()) return;
   Emission emission = emit(job, work.plan, carry.emitter);
   result.left_alone = std::move(emission.left_alone);
+  result.narrowed = std::move(emission.narrowed);
   result.failure = emission.failure;
   if (work.failed()) return;
   result.corrected_moves = emission.corrected_moves;

@@ -42,6 +42,7 @@ void place_corner(const CornerSize& size, Move& before, Move& after) {
   if (size.kind == CornerKind::round) taken *= std::tan(turn / 2);
   if (size.kind == CornerKind::chamfer) taken /= 2 * std::cos(turn / 2);
   ends_of(before).end_mm = ends_of(after).begin_mm = taken;
+  before.corners->end_is_round = size.kind == CornerKind::round;
   // Behind its first, flat part the block may have another height.
   if (after.corners->end_mm == 0) after.takes_no_z = !changes_height_inside(after);
 }

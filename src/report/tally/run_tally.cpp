@@ -7,6 +7,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/reach.hpp"
 #include "report/text/control.hpp"
+#include "report/text/tool_words.hpp"
 
 namespace counterflex {
 
@@ -25,13 +26,16 @@ std::int32_t OperationNames::number_of(const Program& window, const Move& move) 
 RunTally::RunTally(double min_block_ms, std::optional<PathCurves> curves, std::vector<ToolSize> tools)
     : min_block_ms_(min_block_ms), tools_(std::move(tools)), curves_(std::move(curves)) {}
 
+ToolSize RunTally::size_of(long tool) const {
+  const auto known =
+      std::find_if(tools_.begin(), tools_.end(), [&](const ToolSize& size) { return size.number == tool; });
+  return known != tools_.end() ? *known : ToolSize{tool, {}, {}};
+}
+
 MoveFacts RunTally::facts_of(const Job& window, const Waypoint& w) const {
   const Move& move = window.program.moves[w.move];
-  const long number = move.tool;
-  const auto known =
-      std::find_if(tools_.begin(), tools_.end(), [&](const ToolSize& tool) { return tool.number == number; });
-  return {window.path.frames[move.frame].common_shift.value_or(Vector3::Zero()),
-          known != tools_.end() ? *known : ToolSize{number, {}, {}}, !w.cutting};
+  return {window.path.frames[move.frame].common_shift.value_or(Vector3::Zero()), size_of(move.tool),
+          !w.cutting};
 }
 
 void RunTally::add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within) {
@@ -156,6 +160,9 @@ void RunTally::add_compensation(const Compensation& compensation) {
   inserted_blocks_ += compensation.counts.inserted_blocks;
   text_bytes_ += compensation.text.size();
   for (const LeftAlone& block : compensation.left_alone) list(left_alone_, block);
+  for (const NarrowedContour& contour : compensation.narrowed)
+    if (const ToolSize tool = size_of(contour.tool); may_not_pass(contour, tool))
+      list(contour_notes_, Remark{contour.line, narrowed_in_words(contour, tool)});
 }
 
 void RunTally::add_corrected(const Program& corrected_window) {

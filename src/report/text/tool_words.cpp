@@ -3,6 +3,7 @@
 #include <fmt/core.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -43,6 +44,26 @@ std::string tilt_in_words(const ToolReport& tool, double tolerance_mm) {
   return fmt::format(
       "{} stays tilted by up to {} deg: {}, its tip by {} mm; the tolerance of {} mm holds for the tip only",
       name_of_tool(tool.size), mm4(after.tilt_deg), parts, mm4(after.tip_mm), mm4(tolerance_mm));
+}
+
+bool may_not_pass(const NarrowedContour& contour, const ToolSize& tool) {
+  constexpr double share = 0.8;  // a control's radius is larger where it leaves material for another pass
+  return !tool.diameter || *tool.diameter / 2 > share * contour.written_mm * mm;
+}
+
+std::string narrowed_in_words(const NarrowedContour& contour, const ToolSize& tool) {
+  std::string text = fmt::format(
+      "this block of a contour is divided beside an inner corner: the radius of the tool may be at most "
+      "{:.2f} "
+      "mm in the corrected contour, and at most {:.2f} mm in the programmed one; with a larger one the "
+      "control "
+      "stops or cuts into the contour; ",
+      std::floor(100 * contour.written_mm) / 100, contour.programmed_mm);
+  if (tool.diameter && *tool.diameter / 2 > contour.written_mm * mm)
+    text += name_of_tool(tool) + " is too large; ";
+  else if (tool.diameter)
+    text += name_of_tool(tool) + " leaves less than 20 % for a larger radius in the control; ";
+  return text + "use a smaller tool or a larger --tolerance-mm";
 }
 
 std::string tool_rows(const RunReport& report) {

@@ -1,5 +1,6 @@
 #pragma once
-/// Tilted tools in words.
+/// Tools in words: tilted ones, and those that may not pass a contour.
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/report/report.hpp"
 
 namespace counterflex {
@@ -10,6 +11,13 @@ std::string name_of_tool(const ToolSize& tool);
 /// A warning that the rim or the flank of a tool is off by more than the tolerance, though its tip is within
 /// it.
 std::string tilt_in_words(const ToolReport& tool, double tolerance_mm);
+
+/// Whether a control may refuse the tool in a narrowed contour: it does not fit with room to spare, or its
+/// diameter is unknown.
+bool may_not_pass(const NarrowedContour& contour, const ToolSize& tool);
+
+/// A warning that a contour is narrowed.
+std::string narrowed_in_words(const NarrowedContour& contour, const ToolSize& tool);
 
 /// Rows of the deviation table: tip, rim and flank of each tool, in µm; or the tilt, if the diameter is
 /// unknown.
