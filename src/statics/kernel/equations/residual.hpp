@@ -205,19 +205,21 @@ SeriesEnds<T> evaluate_series(int s, const Frame<T>& A, const Frame<T>& B, Work<
         pass(step, work, a);
     }
     for (int i = element.after; i < element.after + element.afters; ++i) pass(at(machine.steps, i), work, b);
-    terms.weight = {};
+    Vec6<T> at_start;
     if (element.kind == ElementKind::group) {
       terms.phi = {};
+      Vec6<T> weight{};
       for (int branch = 0; branch < element.branches; ++branch) {
         const SeriesEnds<T> ends = evaluate_series(element.series + branch, a, b, work);
         terms.phi = terms.phi + ends.phi;
-        terms.weight = terms.weight + ends.weight;
+        weight = weight + ends.weight;
       }
-      inside = inside + terms.weight;
+      inside = inside + weight;
+      at_start = terms.phi - weight;
     } else {
       evaluate_spring(at(machine.springs, element.spring), a, b, work, terms);
+      at_start = terms.phi;
     }
-    Vec6<T> at_start = terms.phi - terms.weight;
     for (int i = element.front + element.fronts - 1; i >= element.front; --i) {
       const FrameStep& step = at(machine.steps, i);
       evaluate_joint(step, at_start, work);

@@ -50,7 +50,6 @@ template <class T>
 struct ElementTerms {
   /// Gradient of its energy with respect to its end's twist: minus the wrench on what is behind.
   Vec6<T> phi;
-  Vec6<T> weight;   ///< gradient of the weights inside it, of a group: its start has weight - phi
   Vec6<T> stress;   ///< the phi with which tangents are made
   Mat3<T> R;        ///< of the frame at its start
   Vec3<T> p, turn;  ///< of a spring: place of its end; rotation vector of its deflection
