@@ -3,6 +3,7 @@
 
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdlib>
 #include <map>
 
@@ -234,6 +235,33 @@ TEST_CASE("sizes alone show compliance, positions need as many values as the fra
                        "s.csv:9:1: error: session \"coupon\" has 2 measured numbers; its frames alone have 7 "
                        "freedoms: measure more states",
                        InputError);
+}
+
+TEST_CASE("a sheet has the directions of the actuators with lost motion") {
+  Machine lost = mill_for_coupon();
+  std::get<Actuator>(
+      *std::find_if(lost.chains[0].elements.begin(), lost.chains[0].elements.end(),
+                    [](const Element& element) { return std::holds_alternative<Actuator>(element); }))
+      .reversal = 10e-6;
+  CutPiece piece{lost};
+  for (Measurement& row : piece.rows.rows)
+    for (std::size_t i = 0; i < row.states.size(); ++i)
+      row.states[i].directions.set(0, static_cast<int>(i % 3) - 1);
+  const std::string sheet =
+      filled(coupon_sheet(lost, piece.coupon, piece.rows,
+                          std::vector<CouponPrediction>(piece.rows.rows.size()), 3e-6),
+             "hole 1,not corrected,x_centre_mm", std::to_string(piece.coupon.quantities[0].nominal_mm));
+  Measurements read;
+  read_measurements(sheet, "s.csv", lost, read);
+  REQUIRE(read.rows.size() == 1);
+  REQUIRE(read.rows[0].states.size() == piece.rows.rows[0].states.size());
+  for (std::size_t i = 0; i < read.rows[0].states.size(); ++i)
+    CHECK(read.rows[0].states[i].directions == piece.rows.rows[0].states[i].directions);
+
+  std::string wrong = sheet;
+  const std::size_t at = wrong.find(",-1,");
+  CHECK(error_of(wrong.replace(at, 4, ",2,"), lost).find("d1 is 2; the direction of an actuator is 1, -1") !=
+        std::string::npos);
 }
 
 TEST_CASE("a sheet with wrong values is refused at the row") {

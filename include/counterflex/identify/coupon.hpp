@@ -61,7 +61,7 @@ Coupon make_coupon(const CouponRequest& request);
 /// A place of a cut: what was commanded there and what acts.
 struct CouponPlace {
   int line = 0;                    ///< of the program
-  Vector3 p_MT = Vector3::Zero();  ///< wanted tip, M (m)
+  Vector3 p_MT = Vector3::Zero();  ///< wanted tip, M (m), where the loaded part with its fixture has it
   double way = 0;                  ///< length of the cut that the place represents (m)
   CommandedState state;
 };

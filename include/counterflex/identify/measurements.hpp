@@ -51,7 +51,7 @@ struct CommandedState {
 
 /// What a feature of a coupon shows of the tip at one of its places.
 struct FeaturePlace {
-  Vector3 p_MT = Vector3::Zero();    ///< wanted tip, M (m)
+  Vector3 p_MT = Vector3::Zero();    ///< wanted tip, M (m), where the loaded part with its fixture has it
   Vector3 weight = Vector3::Zero();  ///< of the deviation there, axes of M
 };
 

@@ -7,6 +7,7 @@
 #include <set>
 
 #include "counterflex/machine/shown.hpp"
+#include "counterflex/statics/fixture.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {
@@ -100,6 +101,12 @@ std::optional<Failure> verify_coupon(const Options& options, Run& run, const Cou
   return is_miss ? std::nullopt : failure;
 }
 
+/// Where the wanted place is under the force: the part deflects with its fixture.
+Vector3 place_on_part(const Mechanism& mechanism, const Waypoint& w) {
+  if (!mechanism.fixture) return w.p_MT;
+  return deflected_part(*mechanism.fixture, w.wrench, w.p_MT) * w.p_MT;
+}
+
 /// Of each measured cut: its places, the first of a line being the end of the move before.
 std::vector<CouponPlace> places_of(const Run& run, const Coupon& coupon,
                                    const std::vector<Waypoint>& waypoints) {
@@ -107,11 +114,14 @@ std::vector<CouponPlace> places_of(const Run& run, const Coupon& coupon,
   for (const CouponQuantity& quantity : coupon.quantities)
     for (const CouponCut& cut : quantity.cuts)
       (quantity.fit == CouponFit::mean ? lines : circles).insert(cut.line);
-  const ShownActuators& shown = run.machine.model.mechanism.shown;
+  const Mechanism& mechanism = run.machine.model.mechanism;
   const long tool = run.tool_models.empty() ? 0 : run.tool_models.begin()->first;
   std::vector<CouponPlace> places;
   const auto add = [&](int line, const Waypoint& w) {
-    places.push_back({line, w.p_MT, 0, {shown_values(shown, w.rho), w.wrench, w.directions, {}, tool}});
+    places.push_back({line,
+                      place_on_part(mechanism, w),
+                      0,
+                      {shown_values(mechanism.shown, w.rho), w.wrench, w.directions, {}, tool}});
   };
   for (std::size_t i = 0; i < waypoints.size(); ++i) {
     const Waypoint& w = waypoints[i];

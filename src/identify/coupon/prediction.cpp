@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// Errors and compliances, and their deviations before the coupon is measured.
+/// The parameters that are uncertain, and their deviations before the coupon is measured.
 struct UncertainParameters {
   std::vector<std::size_t> varied;
   std::vector<double> sigma;
@@ -19,7 +19,7 @@ UncertainParameters prior_parameters(const Machine& machine) {
   const std::vector<Parameter> all = parameters(machine);
   for (std::size_t i = 0; i < all.size(); ++i) {
     const double sigma = prior_deviation(machine, all[i]).sigma;
-    if (all[i].kind == ParameterKind::reversal || sigma == 0) continue;
+    if (sigma == 0) continue;
     result.varied.push_back(i);
     result.sigma.push_back(sigma);
   }

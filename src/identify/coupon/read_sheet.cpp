@@ -7,6 +7,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/coupon.hpp"
+#include "identify/coupon/sheet_columns.hpp"
 #include "identify/read/columns.hpp"
 
 namespace counterflex {
@@ -69,7 +70,10 @@ class SheetReader {
     if (is_places_) {
       needed = {"half",  "quantity", "tool", "fx_N", "fy_N", "fz_N", "mx_Nm", "my_Nm",
                 "mz_Nm", "x_mm",     "y_mm", "z_mm", "wx",   "wy",   "wz",    "wr"};
-      for (std::size_t i = 0; i < actuators_.size(); ++i) needed.push_back(actuator_column(i));
+      for (std::size_t i = 0; i < actuators_.size(); ++i) {
+        needed.push_back(value_column(actuators_[i], i));
+        if (actuators_[i].reversal) needed.push_back(direction_column(i));
+      }
     }
     for (const std::string& name : needed)
       if (!columns_.contains(name))
@@ -77,10 +81,6 @@ class SheetReader {
             {file_, where.line, 1},
             fmt::format("the table has no column \"{}\"; use the sheet as testcut wrote it for this machine",
                         name));
-  }
-
-  std::string actuator_column(std::size_t i) const {
-    return fmt::format("q{}_{}", i + 1, actuators_[i].joint.kind == JointKind::revolute ? "deg" : "mm");
   }
 
   const csv::Field& field(const std::string& name, const Location& where) const {
@@ -132,6 +132,15 @@ class SheetReader {
     at->second = std::move(row);
   }
 
+  int direction(const std::string& name, const Location& where) const {
+    const double value = number(name, where);
+    if (value != 0 && std::abs(value) != 1)
+      csv::fail({file_, where.line, field(name, where).column},
+                fmt::format("{} is {:.6g}; the direction of an actuator is 1, -1, or 0 where it is not known",
+                            name, value));
+    return static_cast<int>(value);
+  }
+
   void read_place(const Location& where) {
     const std::string name = row_name(where);
     const auto found = rows_.find(name);
@@ -141,9 +150,12 @@ class SheetReader {
     Measurement& row = *found->second;
     CommandedState state;
     state.shown.resize(static_cast<Eigen::Index>(actuators_.size()));
-    for (std::size_t i = 0; i < actuators_.size(); ++i)
+    for (std::size_t i = 0; i < actuators_.size(); ++i) {
       state.shown[static_cast<Eigen::Index>(i)] =
-          number(actuator_column(i), where) * (actuators_[i].joint.kind == JointKind::revolute ? deg : mm);
+          number(value_column(actuators_[i], i), where) *
+          (actuators_[i].joint.kind == JointKind::revolute ? deg : mm);
+      if (actuators_[i].reversal) state.directions.set(i, direction(direction_column(i), where));
+    }
     state.F << number("fx_N", where), number("fy_N", where), number("fz_N", where), number("mx_Nm", where),
         number("my_Nm", where), number("mz_Nm", where);
     state.tool = static_cast<long>(number("tool", where));

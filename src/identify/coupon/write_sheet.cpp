@@ -5,6 +5,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/coupon.hpp"
+#include "identify/coupon/sheet_columns.hpp"
 
 namespace counterflex {
 namespace {
@@ -13,11 +14,11 @@ std::string half_of(const CouponQuantity& quantity) {
   return quantity.is_corrected ? "corrected" : "not corrected";
 }
 
-std::string place_columns(const Machine& machine) {
+std::string place_columns(const std::vector<Actuator>& all) {
   std::string text = "place_of,half,quantity,tool";
-  const std::vector<Actuator> all = actuators(machine);
+  for (std::size_t i = 0; i < all.size(); ++i) text += "," + value_column(all[i], i);
   for (std::size_t i = 0; i < all.size(); ++i)
-    text += fmt::format(",q{}_{}", i + 1, all[i].joint.kind == JointKind::revolute ? "deg" : "mm");
+    if (all[i].reversal) text += "," + direction_column(i);
   return text + ",fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,x_mm,y_mm,z_mm,wx,wy,wz,wr\n";
 }
 
@@ -29,6 +30,8 @@ std::string place_line(const std::vector<Actuator>& all, const std::string& row,
     const bool turns = all[static_cast<std::size_t>(i)].joint.kind == JointKind::revolute;
     text += fmt::format(",{:.{}f}", state.shown[i] / (turns ? deg : mm), turns ? 8 : 6);
   }
+  for (std::size_t i = 0; i < all.size(); ++i)
+    if (all[i].reversal) text += fmt::format(",{}", state.directions.of(i));
   for (const double value : state.F) text += fmt::format(",{:.7g}", value);
   for (const double value : place.p_MT) text += fmt::format(",{:.6f}", value / mm);
   for (const double value : place.weight) text += fmt::format(",{:.9g}", rounded(value, 12));
@@ -40,6 +43,7 @@ std::string place_line(const std::vector<Actuator>& all, const std::string& row,
 std::string coupon_sheet(const Machine& machine, const Coupon& coupon, const Measurements& rows,
                          const std::vector<CouponPrediction>& predictions, double sigma) {
   assert(rows.rows.size() == coupon.quantities.size() + 1 && predictions.size() == rows.rows.size());
+  const std::vector<Actuator> all = actuators(machine);
   std::string text(sheet_mark);
   text +=
       "\n# Write what was measured into measured_mm. Rows without a value are skipped.\n"
@@ -62,8 +66,7 @@ std::string coupon_sheet(const Machine& machine, const Coupon& coupon, const Mea
       "# Where the quantities come from: actuators and forces at the places of their cuts. Do not change "
       "these "
       "lines.\n" +
-      place_columns(machine);
-  const std::vector<Actuator> all = actuators(machine);
+      place_columns(all);
   for (std::size_t k = 0; k < rows.rows.size(); ++k) {
     const Measurement& row = rows.rows[k];
     for (std::size_t i = 0; i < row.places.size(); ++i)
