@@ -51,6 +51,7 @@ struct SerialArm {
   std::string travel_comment{};  ///< for joints whose travel is a placeholder
   std::string mass_comment{};    ///< if the source states no masses
   std::string dialect{};
+  std::string units{};  ///< of programs; empty: not stated
   std::string spindle_axis = "-z";
   double sigma_mm = 0.5, sigma_deg = 0.05;  ///< of the components of the error slots
 };

@@ -52,6 +52,12 @@ std::string toml_string(std::string_view text) {
   return result + '"';
 }
 
+std::string program_text(const std::string& dialect, const std::string& units) {
+  std::string text = fmt::format("\n[program]\ndialect = \"{}\"\n", dialect);
+  if (!units.empty()) text += fmt::format("units = \"{}\"\n", units);
+  return text;
+}
+
 std::string file_name(const std::string& file) {
   return comment_text(std::filesystem::path(file).filename().generic_string());
 }

@@ -26,6 +26,9 @@ std::string list_deg(const Vector3& angles);
 /// A basic string of TOML.
 std::string toml_string(std::string_view text);
 
+/// The table [program]; empty `units` are left out.
+std::string program_text(const std::string& dialect, const std::string& units);
+
 /// Text of an input on one line, for a comment.
 std::string comment_text(std::string_view text);
 

@@ -135,7 +135,7 @@ std::string settings_text(const SerialArm& arm) {
       "\n[tool]                                  # PLACEHOLDER: the tool's tip in the last frame\n"
       "xyz_mm = [0, 0, 0]\nspindle_axis = \"{}\"\n",
       arm.spindle_axis);
-  if (!arm.dialect.empty()) text += fmt::format("\n[program]\ndialect = \"{}\"\n", arm.dialect);
+  if (!arm.dialect.empty()) text += program_text(arm.dialect, arm.units);
   return text + "\n[limits]\nmax_correction_mm = 5                   # PLACEHOLDER\n";
 }
 

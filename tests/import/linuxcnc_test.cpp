@@ -142,6 +142,18 @@ TEST_CASE("genserkins has the poses of LinuxCNC's formula, in mm and inch") {
               [](const std::vector<double>& q) { return serial_pose(q, {}, inch); });
 }
 
+TEST_CASE("the unit of length of the INI file is that of programs") {
+  const std::string ini_mm =
+      "[KINS]\nKINEMATICS = genhexkins\n[TRAJ]\nLINEAR_UNITS = mm\n[HAL]\nHALFILE = h.hal\n";
+  const auto units = [](const std::vector<ConfigurationFile>& files) {
+    return read_machine(import_linuxcnc(files), "m.toml").control.units;
+  };
+  CHECK(units({{"arm.hal", serial_pins()}}).empty());
+  CHECK(units({{"arm.ini", arm_ini}, {"arm.hal", serial_pins()}}) == "inch");
+  CHECK(units({{"mill.ini", mill_ini}}) == "inch");
+  CHECK(units({{"h.ini", ini_mm}, {"h.hal", hexapod_pins()}}) == "mm");
+}
+
 TEST_CASE("unrotate couples a joint with those before it, as LinuxCNC does") {
   const std::string pins = serial_pins("setp genserkins.unrotate-2 1\nsetp genserkins.unrotate-3 -2\n");
   check_poses(import_linuxcnc({{"arm.hal", pins}}), [](const std::vector<double>& q) {

@@ -175,10 +175,11 @@ std::string genhexkins_machine(const LinuxCnc& source) {
       "\n[controller]\nkinematics = \"catalogue\"  # LinuxCNC computes with these joints\n"
       "\n[tool]                                  # PLACEHOLDER: the tool's tip in the platform frame\nxyz_mm "
       "= [0, 0, 0]\n"
-      "\n[program]\ndialect = \"linuxcnc\"\n"
+      "{}"
       "\n[limits]\nmax_correction_mm = 5                   # PLACEHOLDER\n",
       toml_string(machine_name(source)), list_mm(home),
-      stated ? "" : "  # PLACEHOLDER: a pose in the middle of the work space: the source does not state one");
+      stated ? "" : "  # PLACEHOLDER: a pose in the middle of the work space: the source does not state one",
+      program_text("linuxcnc", program_units(source)));
   for (std::size_t i = 0; i < struts; ++i) text += leg_text(i, list[i], home);
   return text + hexapod_parameters();
 }

@@ -73,6 +73,7 @@ std::string genserkins_machine(const LinuxCnc& source) {
       "the files have none. Add mass = { kg = ..., at_mm = [...], name = \"...\" } to elements, and "
       "gravity_m_s2";
   arm.dialect = "linuxcnc";
+  arm.units = program_units(source);
   return machine_text(arm);
 }
 

@@ -15,6 +15,9 @@ struct LinuxCnc {
 
 std::string machine_name(const LinuxCnc& source);
 
+/// Of [program]: the unit of length that the INI file states, "mm" or "inch". Empty without an INI file.
+std::string program_units(const LinuxCnc& source);
+
 /// `genserkins`: six rotary joints with modified Denavit-Hartenberg parameters. `unrotate` couples a joint
 /// with the one before it.
 std::string genserkins_machine(const LinuxCnc& source);

@@ -51,6 +51,11 @@ std::string machine_name(const LinuxCnc& source) {
   return name == nullptr || name->text.empty() ? file_stem(source.file) : name->text;
 }
 
+std::string program_units(const LinuxCnc& source) {
+  if (source.ini == nullptr) return "";
+  return source.length == inch ? "inch" : "mm";
+}
+
 }  // namespace import
 
 std::vector<std::string> hal_files_of(const ConfigurationFile& ini) {

@@ -75,6 +75,7 @@ std::string trivkins_machine(const LinuxCnc& source) {
       "the files have none. Add mass = { kg = ..., at_mm = [...], name = \"...\" } to elements, and "
       "gravity_m_s2";
   mill.dialect = "linuxcnc";
+  mill.units = program_units(source);
   mill.spindle_axis = "z";
   mill.sigma_mm = 0.02;
   mill.sigma_deg = 0.005;
