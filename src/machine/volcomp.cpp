@@ -59,7 +59,9 @@ struct Column {
 class VolcompReader {
  public:
   VolcompReader(std::string_view text, std::string file, bool negate)
-      : text_(text), file_(std::move(file)), sign_(negate ? -1 : 1) {}
+      : text_(text), file_(std::move(file)), sign_(negate ? -1 : 1) {
+    if (text_.starts_with("\xEF\xBB\xBF")) text_.remove_prefix(3);
+  }
 
   Volcomp isg() {
     std::vector<Word> header;
@@ -177,7 +179,11 @@ class VolcompReader {
   void take_constant(const Word& name, const Word& value) {
     if (!is_position_error(name.text))
       fail(name, fmt::format("{} has a VALUE; it must have a table", name.text));
-    result_.position_errors[std::string(name.text)] = sign_ * number(value) * unit_of_error(name.text[0]);
+    const auto [first, is_new] = constants_.emplace(name.text, value);
+    if (!is_new && number(value) != number(first->second))
+      fail(value, fmt::format("{} is {}, but {} in line {}; a constant has one value: remove the wrong one",
+                              name.text, value.text, first->second.text, first->second.line));
+    result_.position_errors[first->first] = sign_ * number(value) * unit_of_error(name.text[0]);
   }
 
   Volcomp finished() {
@@ -218,6 +224,7 @@ class VolcompReader {
   const double sign_;
   int line_ = 0;
   std::map<std::string, Column> columns_;
+  std::map<std::string, Word> constants_;  ///< where each was first
   Volcomp result_;
 };
 

@@ -54,6 +54,24 @@ TEST_CASE("components of Etalon's format that have other positions are interpola
   CHECK(volcomp.position_errors.at("C0Y") == 2e-5);
 }
 
+TEST_CASE("a byte order mark before a file of volumetric compensation does not matter") {
+  const Volcomp volcomp = read_volcomp("\xEF\xBB\xBF" + etalon_text, "v.txt", VolcompFormat::etalon, false);
+  CHECK(volcomp.position_errors.at("C0Y") == 2e-5);
+  CHECK(volcomp_error("\xEF\xBB\xBF"
+                      "X EXX\n0 nan\n1 0\n",
+                      VolcompFormat::isg)
+            .starts_with("v.txt:2:3: "));
+}
+
+TEST_CASE("a constant that is stated twice has one value") {
+  using enum VolcompFormat;
+  CHECK(read_volcomp("C0Y\n0.00002\n0.00002\n", "v.txt", isg, false).position_errors.at("C0Y") == 2e-5);
+  CHECK(volcomp_error("X EXX C0Y\n0 0 0.00001\n10 0 0.00002\n", isg) ==
+        "v.txt:3:6: error: C0Y is 0.00002, but 0.00001 in line 2; a constant has one value: remove the wrong "
+        "one");
+  CHECK(volcomp_error("[C0Y]\nVALUE = 0.00002\n[C0Y]\nVALUE = 0.00005\n", etalon).starts_with("v.txt:4:9: "));
+}
+
 TEST_CASE("the text of a table is read as the same table") {
   const ErrorTable x = read_volcomp(isg_text, "v.csv", VolcompFormat::isg, false).tables.at('X');
   const Machine machine = read_machine("format = \"counterflex-machine 1\"\n" + table_text('X', x) +
