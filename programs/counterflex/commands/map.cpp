@@ -110,9 +110,8 @@ void add_to_box(const Program& window, const Toolpath& path, MapBox& box) {
 
 /// The box of the feed moves and holes of the program, in the machine frame. Puts external axes of the
 /// machine where the program has them.
-MapBox place_in_machine(const Options& options, MachineInput& input, Console& console) {
-  const ToolLengths lengths = read_tool_lengths(options, &input.machine);
-  take_lengths(lengths, input.machine);
+MapBox place_in_machine(const Options& options, const ToolLengths& lengths, MachineInput& input,
+                        Console& console) {
   const ReadOptions read = read_options(options, &input.machine, lengths);
   ProgramFile file = open_program("program", options.program, options.data_lists, console);
   const Overview program = scan_program(options, file, read).program;
@@ -147,8 +146,10 @@ void write_map(const WorkspaceMap& map, const Options& options) {
 std::optional<ErrorKind> run_map(const Options& options, Console& console) {
   const MapValues values = map_values_of(options);
   MachineInput input = read_machine_input(options);
+  const ToolLengths lengths = read_tool_lengths(options, &input.machine);
+  take_lengths(lengths, input.machine);
   std::optional<MapBox> program_box;
-  if (!options.program.empty()) program_box = place_in_machine(options, input, console);
+  if (!options.program.empty()) program_box = place_in_machine(options, lengths, input, console);
   WorkspaceMap map{version, input.model.mechanism.name, "", unmeasured_phrase(input.machine)};
   Model with_tool;
   if (options.map.tool) {

@@ -51,7 +51,7 @@ void add_forces(CLI::App& app, Options& options) {
 void add_reading(CLI::App& app, Options& options) {
   add_settings(app, options,
                {"dialect", "units", "integer-words", "arc-centres", "evaluate", "expand-subprograms", "data",
-                "work", "tool-table", "tool-length", "temperature-C"});
+                "work", "tool-table", "tool-length"});
 }
 
 void add_config(CLI::App& app, Options& options) {
@@ -85,9 +85,9 @@ void add_run(CLI::App& app, Options& options) {
   add_setting(app, options, "blend-mm");
   add_reading(app, options);
   add_settings(app, options,
-               {"method", "tolerance-mm", "tolerance-tilt-deg", "tolerance-spin-deg", "max-correction-mm",
-                "accept-partial", "decimals", "uncertainty", "samples", "threads", "min-block-ms", "report",
-                "plot", "force-overwrite"});
+               {"temperature-C", "method", "tolerance-mm", "tolerance-tilt-deg", "tolerance-spin-deg",
+                "max-correction-mm", "accept-partial", "decimals", "uncertainty", "samples", "threads",
+                "min-block-ms", "report", "plot", "force-overwrite"});
   add_config(app, options);
   add_output(app, options, "Print nothing but errors");
 }
