@@ -16,6 +16,7 @@
 #include "process/version.hpp"
 #include "run/inputs.hpp"
 #include "run/outputs.hpp"
+#include "run/run.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -24,8 +25,9 @@ constexpr std::string_view mark = "# Identified by counterflex";
 constexpr std::string_view report_mark = "counterflex-identification 1",
                            page_mark = "counterflex identification";
 
-/// The text without a first line that an earlier run wrote.
+/// The text without a byte order mark, and without a first line that an earlier run wrote.
 std::string_view without_mark(std::string_view text) {
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   if (!text.starts_with(mark)) return text;
   const std::size_t end = text.find('\n');
   return end == std::string_view::npos ? "" : text.substr(end + 1);
@@ -55,21 +57,21 @@ OutputFiles output_files(const Options& options) {
 }
 
 /// The files, and the result for the terminal or a pipe.
-void write_files(const Options& options, const Machine& machine, const Identification& found,
+void write_files(const Options& options, const MachineInput& machine, const Identification& found,
                  const OutputFiles& files) {
   const std::string data = names_of(options.identify.data);
   std::optional<FileWriter> machine_file, json_file, page_file;
   if (!files.machine.empty()) {
-    const std::string text = read_file(options.machine);
     machine_file.emplace(files.machine);
     machine_file->write(fmt::format("{} {} from {}\n", mark, version, data));
-    machine_file->write(with_identified(without_mark(text), options.machine, found, data));
+    machine_file->write(
+        with_identified(without_mark(machine.text), shown_name(options.machine), found, data));
   }
   if (!files.report.empty()) {
     json_file.emplace(files.report);
     json_file->write(to_json(found));
     page_file.emplace(files.page);
-    page_file->write(identification_page(found, machine.name, data));
+    page_file->write(identification_page(found, machine.machine.name, data));
   }
   publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
   if (files.machine == "-") return;
@@ -85,11 +87,12 @@ void write_files(const Options& options, const Machine& machine, const Identific
 
 std::optional<ErrorKind> run_identify(const Options& options, Console& console) {
   refuse_wrong_values(options);
+  refuse_stdin_twice(options);
   const OutputFiles files = output_files(options);
   const MachineInput input = read_machine_input(options);
   Identification found;
   if (const auto error = identify_run(options, input, console, found)) return error;
-  write_files(options, input.machine, found, files);
+  write_files(options, input, found, files);
   return {};
 }
 

@@ -78,17 +78,24 @@ std::string largest_rows(const Coupon& coupon, const std::vector<CouponPredictio
   return text;
 }
 
+/// Forces are read once for each preparation of the run.
+void refuse_forces_of_stdin(const Options& options) {
+  if (std::find(options.forces.begin(), options.forces.end(), "-") != options.forces.end())
+    refuse_testcut("--forces is -; testcut reads the forces twice: give the name of a file");
+}
+
 /// The run of the coupon. The program that is written begins with a header: diagnostics name its lines, so
 /// the run is prepared in silence first, for the length of the header.
-std::unique_ptr<Run> prepare_coupon(const Options& options, const Coupon& coupon, Console& console) {
+std::unique_ptr<Run> prepare_coupon(const Options& options, const MachineInput& machine, const Coupon& coupon,
+                                    Console& console) {
   Console silent({.quiet = true});
-  const auto first = prepare_run(options, coupon.text, silent);
+  const auto first = prepare_run(options, machine, coupon.text, silent);
   refuse_what_cannot_be_compensated(*first);
   prepare_writing(options, *first);
   const int header_lines = static_cast<int>(first->options.write.header.size());
   const std::string& name = first->program.file;
   console.name_lines(name, {name}, {1 - header_lines});
-  auto run = prepare_run(options, coupon.text, console);
+  auto run = prepare_run(options, machine, coupon.text, console);
   prepare_writing(options, *run);
   return run;
 }
@@ -97,11 +104,14 @@ std::unique_ptr<Run> prepare_coupon(const Options& options, const Coupon& coupon
 
 std::optional<ErrorKind> run_testcut(const Options& options, Console& console) {
   check_coupon_outputs(options);
-  const Coupon coupon = make_coupon(request_of(options, read_machine_input(options).machine));
+  refuse_forces_of_stdin(options);
+  console.progress("reading");
+  const MachineInput input = read_machine_input(options);
+  const Coupon coupon = make_coupon(request_of(options, input.machine));
   Options run_options = options;
   run_options.program = *options.output;
   run_options.dialect = "linuxcnc";
-  const auto run = prepare_coupon(run_options, coupon, console);
+  const auto run = prepare_coupon(run_options, input, coupon, console);
   if (acts_at_platform(run->force_input.source))
     throw InputError(ErrorKind::machine_or_force, {},
                      "the forces act at the platform (at = platform); a coupon needs forces at the tip");

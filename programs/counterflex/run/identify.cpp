@@ -54,14 +54,13 @@ bool are_deflections(const Measurements& measurements) {
 }
 
 /// Of --for, if it is given.
-std::optional<Failure> places_for(const Options& options, Console& console,
+std::optional<Failure> places_for(const Options& options, const MachineInput& machine, Console& console,
                                   std::vector<ProgramPlace>& places) {
   if (options.identify.program.empty()) return std::nullopt;
   Options run = options;
-  run.command = Command::predict;
   run.program = options.identify.program;
   run.report.reset();
-  return find_program_places(run, console, places);
+  return find_program_places(run, machine, console, places);
 }
 
 /// Throws (ErrorKind::usage).
@@ -106,7 +105,7 @@ std::optional<ErrorKind> identify_run(const Options& options, const MachineInput
     console.note("the rows are pushes and weights: only compliances are fitted (default of --fit)\n");
   }
   std::vector<ProgramPlace> places;
-  if (const auto failure = places_for(options, console, places)) return failure->kind;
+  if (const auto failure = places_for(options, input, console, places)) return failure->kind;
   console.progress("identifying");
   found = identify(input.machine, measurements, wanted);
   if (!places.empty()) {

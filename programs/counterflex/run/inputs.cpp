@@ -131,11 +131,14 @@ void refuse_home(const Model& model, const Machine& machine) {
 MachineInput read_machine_input(const Options& options) {
   const std::string text = read_input(options.machine, ErrorKind::machine_or_force);
   const std::string name = shown_name(options.machine);
-  return ready_machine(options, input_file("machine", options.machine, text), read_machine(text, name));
+  MachineInput input =
+      ready_machine(options, input_file("machine", options.machine, text), read_machine(text, name));
+  input.text = text;
+  return input;
 }
 
 MachineInput ready_machine(const Options& options, InputFile file, Machine machine) {
-  MachineInput input{std::move(file), std::move(machine), {}};
+  MachineInput input{std::move(file), std::move(machine), {}, {}};
   override_work(options, input.machine);
   input.machine = at_temperature_of(options, std::move(input.machine));
   input.model = prepare(input.machine);

@@ -23,6 +23,7 @@ struct MachineInput {
   InputFile file;
   Machine machine;
   Model model;
+  std::string text{};  ///< of the file, as it was read; empty for a machine that is known
 };
 MachineInput read_machine_input(const Options& options);
 

@@ -1,6 +1,7 @@
 #include "run/program_places.hpp"
 
 #include <numeric>
+#include <utility>
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
@@ -22,10 +23,10 @@ std::vector<Waypoint> with_weights_of_holes(const Job& window, const std::vector
 
 }  // namespace
 
-std::optional<Failure> find_program_places(const Options& options, Console& console,
+std::optional<Failure> find_program_places(const Options& options, MachineInput machine, Console& console,
                                            std::vector<ProgramPlace>& places) {
   constexpr std::size_t most = 256;
-  const auto run = prepare_run(options, console);
+  const auto run = prepare_run(options, std::move(machine), console);
   RunFiles files(OutputPaths{}, {});
   RunTally tally = tally_for(options, *run);
   Windows windows(*run, console);

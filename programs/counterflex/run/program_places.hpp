@@ -8,10 +8,10 @@
 
 namespace counterflex::cli {
 
-/// Places of the feed moves and of the holes of `options.program`, some hundred at most, with the force of
-/// the options there. A hole weighs as much as a feed move of its depth. A failure if one of them cannot be
-/// solved. Throws `InputError`, also if no place has a weight.
-std::optional<Failure> find_program_places(const Options& options, Console& console,
+/// Places of the feed moves and of the holes of `options.program` on `machine`, some hundred at most, with
+/// the force of the options there. A hole weighs as much as a feed move of its depth. A failure if one of
+/// them cannot be solved. Throws `InputError`, also if no place has a weight.
+std::optional<Failure> find_program_places(const Options& options, MachineInput machine, Console& console,
                                            std::vector<ProgramPlace>& places);
 
 }  // namespace counterflex::cli

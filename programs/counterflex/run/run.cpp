@@ -222,6 +222,8 @@ void refuse_stdin_twice(const Options& options) {
   paths.insert(paths.end(), options.forces.begin(), options.forces.end());
   paths.insert(paths.end(), options.data_lists.begin(), options.data_lists.end());
   paths.insert(paths.end(), options.compare.reports.begin(), options.compare.reports.end());
+  paths.insert(paths.end(), options.identify.data.begin(), options.identify.data.end());
+  paths.insert(paths.end(), {options.identify.program, options.identify.prior});
   const auto count = std::count(paths.begin(), paths.end(), "-");
   if (count > 1) throw InputError(ErrorKind::usage, {}, "standard input (-) can be only one of the inputs");
 }
@@ -287,12 +289,12 @@ MachineInput first_input(const Options& options, Console& console) {
 }  // namespace
 
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console) {
-  return prepared_run(options, first_input(options, console), console,
-                      [&] { return open_program("program", options.program, options.data_lists, console); });
+  return prepare_run(options, first_input(options, console), console);
 }
 
-std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console) {
-  return prepare_run(options, first_input(options, console), text, console);
+std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, Console& console) {
+  return prepared_run(options, std::move(machine), console,
+                      [&] { return open_program("program", options.program, options.data_lists, console); });
 }
 
 std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, const std::string& text,

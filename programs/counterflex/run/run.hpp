@@ -52,10 +52,10 @@ void refuse_stdin_twice(const Options& options);
 /// file is written.
 std::unique_ptr<Run> prepare_run(const Options& options, Console& console);
 
-/// The same for a program that is not a file: `options.program` is its name.
-std::unique_ptr<Run> prepare_run(const Options& options, const std::string& text, Console& console);
+/// The same on a machine that was read before.
+std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, Console& console);
 
-/// The same on a machine that is not read from `options.machine`.
+/// The same for a program that is not a file: `options.program` is its name.
 std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, const std::string& text,
                                  Console& console);
 

@@ -10,10 +10,12 @@
 #include "counterflex/report/identification.hpp"
 #include "process/console.hpp"
 #include "process/read_input.hpp"
+#include "settings/setting_options.hpp"
 
 namespace counterflex::cli {
 
 std::vector<InputFile> read_uncertainty_files(const Options& options, Machine& machine) {
+  if (!has_setting(options.command, "uncertainty")) machine.uncertainty.reset();
   std::vector<InputFile> files;
   const auto read = [&](const char* role, const std::string& path) {
     std::string text = read_input(path, ErrorKind::machine_or_force);

@@ -8,7 +8,8 @@
 namespace counterflex::cli {
 
 /// Takes the uncertainty of --uncertainty, and reads the covariance that it or the machine file names.
-/// Returns the files. Throws `InputError` (ErrorKind::machine_or_force).
+/// Returns the files. For a command without --uncertainty, which shows no bands, `machine` loses its
+/// uncertainty. Throws `InputError` (ErrorKind::machine_or_force).
 std::vector<InputFile> read_uncertainty_files(const Options& options, Machine& machine);
 
 }  // namespace counterflex::cli

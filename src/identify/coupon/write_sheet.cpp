@@ -16,9 +16,9 @@ std::string half_of(const CouponQuantity& quantity) {
 
 std::string place_columns(const std::vector<Actuator>& all) {
   std::string text = "place_of,half,quantity,tool";
-  for (std::size_t i = 0; i < all.size(); ++i) text += "," + value_column(all[i], i);
+  for (std::size_t i = 0; i < all.size(); ++i) text += fmt::format(",{}", value_column(all[i], i));
   for (std::size_t i = 0; i < all.size(); ++i)
-    if (all[i].reversal) text += "," + direction_column(i);
+    if (all[i].reversal) text += fmt::format(",{}", direction_column(i));
   return text + ",fx_N,fy_N,fz_N,mx_Nm,my_Nm,mz_Nm,x_mm,y_mm,z_mm,wx,wy,wz,wr\n";
 }
 
