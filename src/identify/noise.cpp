@@ -11,6 +11,8 @@ namespace {
 
 constexpr int fewest_freedoms = 3;     // of a noise that is worth stating
 constexpr double one_percent = 2.326;  // quantile of the normal distribution
+// m. A smaller scatter means equal readings: their noise is below the resolution of the gauge, and unknown.
+constexpr double least_noise = 1e-9;
 // Controls show values with noise of their own: states that differ by less are repeats.
 constexpr double same_length = 1e-5, same_angle = 1e-4;  // m, rad
 
@@ -136,18 +138,18 @@ void fill_noise(const FitProblem& problem, const Fit& fit, Identification& resul
       misfit += mean_of(place).squaredNorm();
       share += 1 / static_cast<double>(place.size());
     }
+    const double noise = scatter.freedoms > 0 ? scatter.squares / scatter.freedoms : 0;
+    if (noise < least_noise * least_noise) continue;
     all.squares += scatter.squares, all.freedoms += scatter.freedoms;
     if (scatter.freedoms < fewest_freedoms || places.empty()) continue;
     const auto count = static_cast<double>(places.size());
-    const double noise = scatter.squares / scatter.freedoms;
     misfit /= count, share /= count;
     SessionNoise entry{session.name, session.kind, std::sqrt(noise), scatter.freedoms, std::sqrt(misfit)};
     entry.noise_of_means = std::sqrt(noise * share);
     entry.lack_of_fit = std::sqrt(std::max(0.0, misfit - noise * share));
     const double components = is_tracker(session.kind) ? 3 : 1;
-    entry.is_lacking = noise == 0 ? misfit > 0
-                                  : is_above_chance(misfit / (noise * share), components * count,
-                                                    components * scatter.freedoms);
+    entry.is_lacking =
+        is_above_chance(misfit / (noise * share), components * count, components * scatter.freedoms);
     result.noise.push_back(entry);
   }
   if (all.freedoms >= fewest_freedoms) result.repeatability = std::sqrt(all.squares / all.freedoms);

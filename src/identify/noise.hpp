@@ -9,7 +9,8 @@ namespace counterflex {
 void check_repeats(const Measurements& measurements);
 
 /// Fills `noise` and `repeatability`. Rows of one session at nearly equal states, equal forces and directions
-/// are repeats, too. Rows that were left out of the fit do not count.
+/// are repeats, too. Rows that were left out of the fit do not count. A session whose repeats are all equal
+/// has no entry: its noise is not known.
 void fill_noise(const FitProblem& problem, const Fit& fit, Identification& result);
 
 }  // namespace counterflex

@@ -115,6 +115,19 @@ TEST_CASE("an error of the machine that the fit must not change is lack of fit")
         doctest::Approx(noise.misfit * noise.misfit));
 }
 
+TEST_CASE("equal readings do not show the noise, and so no lack of fit") {
+  const Machine machine = mill_out_of_square("0");
+  std::string csv = "kind,X_mm,Y_mm,Z_mm,fx_N,fy_N,fz_N,gx,gy,gz,reading_um,sigma_um\n";
+  for (int place = 0; place < 8; ++place)
+    for (int i = 0; i < 3; ++i)
+      csv += fmt::format("static_push,{},0,0,400,0,0,1,0,0,{},5\n", 10 * place, 20 + place % 2);
+  Measurements all;
+  read_measurements(csv, "pushes.csv", machine, all);
+  const Identification found = identify(machine, all, {});
+  CHECK(found.noise.empty());
+  CHECK_FALSE(found.repeatability.has_value());
+}
+
 TEST_CASE("rows at nearly equal states are repeats, too") {
   const Machine machine = mill_out_of_square("0");
   Random random(4);

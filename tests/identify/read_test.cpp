@@ -33,6 +33,18 @@ std::string error_of(const std::string& csv) {
 
 }  // namespace
 
+TEST_CASE("a session has stated deviations if any of its rows has one, in any order") {
+  const std::string head = "kind,X_mm,Y_mm,Z_mm,fx_N,gx,gy,gz,reading_um,sigma_um\n";
+  const std::string with = "static_push,10,0,0,400,1,0,0,20,4\n",
+                    without = "static_push,20,0,0,400,1,0,0,20,\n";
+  for (const std::string& rows : {with + without, without + with}) {
+    const Measurements all = read(head + rows);
+    REQUIRE(all.sessions.size() == 1);
+    CHECK(all.sessions[0].sigma_given);
+  }
+  CHECK_FALSE(read(head + without + without).sessions[0].sigma_given);
+}
+
 TEST_CASE("columns have units in their names, and actuators have numbers or letters") {
   const Measurements all = read(
       "kind,session,X_mm,q2_m,Z_in,x_mm,y_m,z_in,sigma_um\n"

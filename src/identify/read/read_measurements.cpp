@@ -91,10 +91,14 @@ class RowReader {
   /// `part` distinguishes rows of one session whose unknowns differ.
   std::size_t session_of(MeasurementKind kind, const std::string& part = "") {
     const std::string name = session_name() + part;
-    for (std::size_t i = 0; i < all_.sessions.size(); ++i)
-      if (all_.sessions[i].name == name && all_.sessions[i].kind == kind) return i;
     const bool sigma_given =
         table_->is_filled(sigma_column(kind)) || (!is_slope(kind) && table_->is_filled("sigma_angle"));
+    for (std::size_t i = 0; i < all_.sessions.size(); ++i) {
+      Session& session = all_.sessions[i];
+      if (session.name != name || session.kind != kind) continue;
+      session.sigma_given = session.sigma_given || sigma_given;
+      return i;
+    }
     all_.sessions.push_back({name, kind, sigma_given, description_.X_TB});
     all_.sessions.back().has_known_frame = description_.has_known_frame;
     if (description_.probe_sigma) all_.sessions.back().probe_sigma = *description_.probe_sigma;

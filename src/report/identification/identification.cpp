@@ -77,7 +77,7 @@ constexpr double large_misfit = 3;
 
 std::string misfit_lines(const Identification& found) {
   std::string text = "residuals    " + residual_words(found);
-  text += found.noise.empty() ? "; without repeats noise and lack of fit are not known\n" : "\n";
+  text += found.noise.empty() ? "; without repeats that differ, noise and lack of fit are not known\n" : "\n";
   for (const SessionNoise& noise : found.noise)
     text += fmt::format("noise        {}, {}: {}\n", noise.session, name_of(noise.kind), noise_words(noise));
   if (found.misfit.value_or(0) > large_misfit)

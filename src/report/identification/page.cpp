@@ -136,9 +136,9 @@ std::string file_line(const Location& at) {
 }
 
 std::string row_tables(const Identification& found) {
-  std::string text =
-      fmt::format("<h2>Noise and lack of fit</h2>\n<p>Residuals: {}. {}</p>\n", residual_words(found),
-                  found.noise.empty() ? "Without repeats noise and lack of fit are not known." : "");
+  std::string text = fmt::format(
+      "<h2>Noise and lack of fit</h2>\n<p>Residuals: {}. {}</p>\n", residual_words(found),
+      found.noise.empty() ? "Without repeats that differ, noise and lack of fit are not known." : "");
   for (const SessionNoise& noise : found.noise)
     text += fmt::format("<p>{}, {}: {}</p>\n", xml_escaped(noise.session), name_of(noise.kind),
                         noise_words(noise));
