@@ -4,6 +4,7 @@
 #include <optional>
 #include <tuple>
 
+#include "counterflex/toolpath/reach.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 #include "report/tally/may_cut.hpp"
 
@@ -125,7 +126,8 @@ class MotionPlanner::Window {
   }
 
   std::string why_held(const Move& move) const {
-    if (move.cycle) return "a cycle in G91 or with repeats holds the shift of its first hole";
+    if (move.cycle && move.cycle->repeats == 0) return "a cycle with a count of 0 drills no hole";
+    if (move.cycle && move.relative) return "a cycle in G91 holds the shift of the block before it";
     return reason_at(move).value_or("holds the shift of the block before it");
   }
 
@@ -163,7 +165,7 @@ class MotionPlanner::Window {
 
   void count_kind(const Move& move) {
     if (move.arc) ++plan_.arcs[static_cast<std::size_t>(2 - move.arc->normal)];
-    plan_.cycles += move.cycle.has_value();
+    plan_.cycles += static_cast<std::size_t>(count_of_holes(move));
     plan_.relative += move.relative;
     plan_.inverse_time += move.motion == Motion::feed && move.feed_mode == FeedMode::inverse_time;
     ++plan_.tools[move.tool];

@@ -153,28 +153,49 @@ std::vector<Vector3> points_along(const Curve& curve) {
   return points;
 }
 
-std::optional<Curve> hole_of_cycle(const Move& move) {
-  Curve hole{move.end_mm, move.end_mm, {}};
-  if (move.cycle && move.cycle->repeats > 0 && move.known_end[0] && move.known_end[1]) {
-    hole.start.z() = move.cycle->retract_mm;
-    hole.end.z() = move.cycle->bottom_mm;
-    return hole;
+int count_of_holes(const Move& move) {
+  if (!move.cycle) return 0;
+  return move.relative ? move.cycle->repeats : std::min(move.cycle->repeats, 1);
+}
+
+std::vector<double> fractions_of_holes(const Move& move) {
+  const int count = move.known_end[0] && move.known_end[1] ? count_of_holes(move) : 0;
+  std::vector<double> fractions;
+  for (int i = 1; i <= count; ++i) fractions.push_back(static_cast<double>(i) / count);
+  return fractions;
+}
+
+Vector3 bottom_of_hole(const Move& move, double u) {
+  const Vector3 place_mm = u == 1 ? move.end_mm : Vector3(move.start_mm + u * (move.end_mm - move.start_mm));
+  return {place_mm.x(), place_mm.y(), move.cycle->bottom_mm};
+}
+
+std::vector<Curve> holes_of_cycle(const Move& move) {
+  std::vector<Curve> holes;
+  for (const double u : fractions_of_holes(move)) {
+    const Vector3 bottom_mm = bottom_of_hole(move, u);
+    holes.push_back({{bottom_mm.x(), bottom_mm.y(), move.cycle->retract_mm}, bottom_mm, {}});
   }
-  if (!move.makes_hole || !move.called || !all_known(move.known_end)) return std::nullopt;
-  hole.end.z() = move.called->heights_mm[2];
-  return std::isfinite(hole.end.z()) ? std::optional(hole) : std::nullopt;
+  if (!move.makes_hole || !move.called || !all_known(move.known_end)) return holes;
+  const double bottom_mm = move.called->heights_mm[2];
+  if (std::isfinite(bottom_mm))
+    holes.push_back({move.end_mm, {move.end_mm.x(), move.end_mm.y(), bottom_mm}, {}});
+  return holes;
 }
 
 std::vector<Vector3> places_of_cycle(const Move& move) {
-  const std::optional<Curve> hole = hole_of_cycle(move);
-  if (!hole) return {};
-  const double retract_mm = move.cycle ? move.cycle->retract_mm : move.called->heights_mm[1];
-  return {hole->end, {hole->end.x(), hole->end.y(), retract_mm}};
+  std::vector<Vector3> places;
+  for (const Curve& hole : holes_of_cycle(move)) {
+    const double retract_mm = move.cycle ? move.cycle->retract_mm : move.called->heights_mm[1];
+    places.push_back(hole.end);
+    places.emplace_back(hole.end.x(), hole.end.y(), retract_mm);
+  }
+  return places;
 }
 
 bool goes_to_unknown_places(const Move& move) {
   const bool drills = move.cycle ? move.cycle->repeats > 0 : move.makes_hole;
-  return any_axis(move.fixed) || move.mills_at_end || (drills && !hole_of_cycle(move));
+  return any_axis(move.fixed) || move.mills_at_end || (drills && holes_of_cycle(move).empty());
 }
 
 void ignore_axes(Program& program, const std::array<bool, 3>& ignored) {

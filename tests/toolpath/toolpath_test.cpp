@@ -169,39 +169,61 @@ TEST_CASE("an arc in a turned frame goes nowhere beyond the points along it") {
   }
 }
 
+TEST_CASE("under G91 each repeat of a cycle drills at its own place, under G90 all drill at one") {
+  Program program = ProgramBuilder({0, 10, 5}).rapid({30, 40, 5}).program;
+  Move& move = program.moves[0];
+  move.cycle.emplace().bottom_mm = -30;
+  move.cycle->repeats = 3;
+  CHECK(count_of_holes(move) == 1);
+  CHECK(fractions_of_holes(move) == std::vector<double>{1});
+  move.relative = true;
+  CHECK(count_of_holes(move) == 3);
+  const std::vector<Curve> holes = holes_of_cycle(move);
+  REQUIRE(holes.size() == 3);
+  for (int i = 0; i < 3; ++i) {
+    const auto k = static_cast<std::size_t>(i);
+    CHECK((holes[k].end - Vector3(10 * (i + 1), 10 * (i + 2), -30)).norm() < 1e-12);
+  }
+  CHECK(holes[2].end == Vector3(30, 40, -30));
+  CHECK(places_of_cycle(move).size() == 6);
+  move.known_end[0] = false;
+  CHECK(fractions_of_holes(move).empty());
+  CHECK(goes_to_unknown_places(move));
+}
+
 TEST_CASE("a hole is known from where its feed begins to its bottom, if place and depth are") {
   Program program = ProgramBuilder({0, 0, 5}).rapid({10, 20, 0}).program;
   Move& move = program.moves[0];
-  CHECK_FALSE(hole_of_cycle(move));
+  CHECK(holes_of_cycle(move).empty());
   CHECK_FALSE(goes_to_unknown_places(move));
   SUBCASE("of a cycle in the block") {
     move.cycle.emplace().bottom_mm = -30;
     move.cycle->retract_mm = 2;
     move.known_end[2] = false;
-    const auto hole = hole_of_cycle(move);
-    REQUIRE(hole);
-    CHECK(hole->start == Vector3(10, 20, 2));
-    CHECK(hole->end == Vector3(10, 20, -30));
+    const std::vector<Curve> holes = holes_of_cycle(move);
+    REQUIRE(holes.size() == 1);
+    CHECK(holes[0].start == Vector3(10, 20, 2));
+    CHECK(holes[0].end == Vector3(10, 20, -30));
     CHECK(places_of_cycle(move) == std::vector{Vector3(10, 20, -30), Vector3(10, 20, 2)});
     move.cycle->repeats = 0;
-    CHECK_FALSE(hole_of_cycle(move));
+    CHECK(holes_of_cycle(move).empty());
     CHECK_FALSE(goes_to_unknown_places(move));
   }
   SUBCASE("of a cycle that is called") {
     move.makes_hole = true;
     move.called.emplace().heights_mm = {0, 5, -30, 0};
-    const auto hole = hole_of_cycle(move);
-    REQUIRE(hole);
-    CHECK(hole->start == Vector3(10, 20, 0));
-    CHECK(hole->end == Vector3(10, 20, -30));
+    const std::vector<Curve> holes = holes_of_cycle(move);
+    REQUIRE(holes.size() == 1);
+    CHECK(holes[0].start == Vector3(10, 20, 0));
+    CHECK(holes[0].end == Vector3(10, 20, -30));
     CHECK(places_of_cycle(move) == std::vector{Vector3(10, 20, -30), Vector3(10, 20, 5)});
     move.called->heights_mm[2] = std::nan("");
-    CHECK_FALSE(hole_of_cycle(move));
+    CHECK(holes_of_cycle(move).empty());
     CHECK(goes_to_unknown_places(move));
   }
   SUBCASE("not of one that mills around its place, or of a position that is a variable") {
     move.mills_at_end = true;
-    CHECK_FALSE(hole_of_cycle(move));
+    CHECK(holes_of_cycle(move).empty());
     CHECK(goes_to_unknown_places(move));
     move.mills_at_end = false;
     move.fixed[0] = true;

@@ -143,8 +143,8 @@ struct Causes {
 /// Six-vectors: position (m), rotation vector (rad), axes of M, actual minus wanted.
 struct Waypoint {
   std::size_t segment = 0;  ///< or no_segment
-  double fraction = 1;
-  std::uint32_t move = 0;  ///< index into Program::moves of the original
+  double fraction = 1;      ///< of the segment; of a hole of a cycle, of its move
+  std::uint32_t move = 0;   ///< index into Program::moves of the original
   int line = 0;
   bool cutting = false;
   bool between = false;  ///< a sample inside a piece
@@ -177,9 +177,10 @@ inline bool knows_before(const Waypoint& w) {
 
 /// Whether it is the place of a cycle: the bottom of its hole, or the position at which it is called.
 inline bool is_place_of_cycle(const Program& program, const Waypoint& w) {
-  if (w.cutting || w.fraction != 1) return false;
+  if (w.cutting) return false;
   const Move& move = program.moves[w.move];
-  return (w.segment == no_segment && move.cycle) || move.makes_hole || move.mills_at_end;
+  if (w.segment == no_segment && move.cycle) return true;
+  return w.fraction == 1 && (move.makes_hole || move.mills_at_end);
 }
 
 /// Whether the tool cuts there: on a feed move, or at the place of a cycle.

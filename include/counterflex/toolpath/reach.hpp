@@ -18,11 +18,23 @@ std::vector<double> fractions_along(const Curve& curve);
 /// against them to within 2 % of its radius.
 Extent extent_of(const Curve& curve);
 
-/// The line along which a cycle drills a hole with a move, from the height at which its feed begins to the
-/// bottom, in program coordinates (mm). Empty: it drills none, or place or depth are not known.
-std::optional<Curve> hole_of_cycle(const Move& move);
+/// Number of holes that a cycle of G-code drills with a move: under G91 each repeat drills the next one,
+/// under G90 all repeats drill the same one.
+int count_of_holes(const Move& move);
 
-/// Places to which that cycle takes the tool: the bottom of its hole, and its retract plane above it (mm).
+/// Fractions of the way of a move, in X and Y, at which its cycle of G-code drills; the last one is 1. Empty:
+/// it drills no hole, or their places are not known.
+std::vector<double> fractions_of_holes(const Move& move);
+
+/// The bottom of the hole at one of these fractions, in program coordinates (mm).
+Vector3 bottom_of_hole(const Move& move, double u);
+
+/// The lines along which a cycle drills holes with a move, each from the height at which its feed begins to
+/// the bottom, in program coordinates (mm). Empty: it drills none, or place or depth are not known.
+std::vector<Curve> holes_of_cycle(const Move& move);
+
+/// Places to which that cycle takes the tool: the bottoms of its holes, and its retract plane above each
+/// (mm).
 std::vector<Vector3> places_of_cycle(const Move& move);
 
 /// Whether the tool goes to places that are not known: a position or a depth is not a plain number, or a

@@ -101,10 +101,9 @@ void add_to_box(const Program& window, const Toolpath& path, MapBox& box) {
   for (const Segment& segment : path.segments)
     if (segment.cutting) add_to_box(extent_of(segment.wanted), box);
   for (const Move& move : window.moves) {
-    const auto hole_mm = hole_of_cycle(move);
-    if (!hole_mm) continue;
     const Pose X_MW = wanted_frame(path.frames[move.frame]);
-    add_to_box(extent_of(Curve{X_MW * (hole_mm->start * mm), X_MW * (hole_mm->end * mm)}), box);
+    for (const Curve& hole_mm : holes_of_cycle(move))
+      add_to_box(extent_of(Curve{X_MW * (hole_mm.start * mm), X_MW * (hole_mm.end * mm)}), box);
   }
 }
 

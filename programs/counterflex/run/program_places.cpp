@@ -16,7 +16,8 @@ std::vector<Waypoint> with_weights_of_holes(const Job& window, const std::vector
   std::vector<Waypoint> weighed = waypoints;
   for (Waypoint& w : weighed) {
     if (!is_place_of_cycle(window.program, w)) continue;
-    if (const auto hole_mm = hole_of_cycle(window.program.moves[w.move])) w.weight = length(*hole_mm) * mm;
+    const std::vector<Curve> holes_mm = holes_of_cycle(window.program.moves[w.move]);
+    if (!holes_mm.empty()) w.weight = length(holes_mm.front()) * mm;
   }
   return weighed;
 }

@@ -82,7 +82,7 @@ void Emitter::emit_first_known(std::size_t m) {
 // began.
 void Emitter::emit_hole(std::size_t m) {
   const Move& move = job_.program.moves[m];
-  const Vector3 bottom = wanted_frame(frame(move)) * (bottom_of(move) * mm);
+  const Vector3 bottom = wanted_frame(frame(move)) * (hole_of(move) * mm);
   const std::optional<PositionCorrection> solved = solve_position(bottom, move);
   if (!solved) return;
   Vector3 shift = shift_mm(move, solved->shift);

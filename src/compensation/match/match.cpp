@@ -9,6 +9,7 @@
 #include "counterflex/compensation/offset_window.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/program/kept_words.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
@@ -25,14 +26,15 @@ Failure not_found(const Move& original, std::size_t others, CorrectedMoves& foun
       next->move->line};
 }
 
-void add_hole(const Job& job, const MatchedMoves& matched, std::vector<DraftPiece>& drafts) {
+void add_holes(const Job& job, const MatchedMoves& matched, std::vector<DraftPiece>& drafts) {
   const Move &original = matched.original, &found = matched.last();
-  if (!original.cycle || !original.known_end[0] || !original.known_end[1]) return;
-  Piece piece = piece_of_end(job, original, found);
-  piece.corrected_line = found.line;
-  const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
-  piece.exempt_end = original.handling != Handling::own || !takes_z;
-  drafts.push_back({std::move(piece)});
+  for (const double u : fractions_of_holes(original)) {
+    Piece piece = piece_of_hole(job, original, found, u);
+    piece.corrected_line = found.line;
+    const bool takes_z = original.cycle->bottom_word || original.cycle->may_insert_bottom;
+    piece.exempt_end = original.handling != Handling::own || !takes_z;
+    drafts.push_back({std::move(piece)});
+  }
 }
 
 // The end of a move from a position that is not known.
@@ -92,7 +94,7 @@ std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t 
   if (auto failure = zone_failure(job, matched, state.zone)) return failure;
   const std::size_t pieces_before = state.drafts.size();
   if (segment && !original.cycle) add_pieces(job, plan, matched, state.drafts);
-  add_hole(job, matched, state.drafts);
+  add_holes(job, matched, state.drafts);
   add_position(job, matched, state.skipped, state.drafts);
   state.changed_without_piece += state.drafts.size() == pieces_before && ends_elsewhere(matched);
   state.last_line = matched.last().line;

@@ -6,17 +6,13 @@
 #include "compensation/solve/commands.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
 
 constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
 constexpr double same_fraction = 1e-9;
-
-bool is_known_hole(const Move& move) {
-  const auto& fixed = move.fixed;
-  return move.cycle && move.handling == Handling::own && !fixed[0] && !fixed[1] && !fixed[2];
-}
 
 bool is_first_known(const Move& move) {
   return all_known(move.known_end) && !all_known(move.known_start) && !move.cycle;
@@ -43,7 +39,8 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
   const auto add_ends_before = [&](std::size_t end) {
     for (; next_move < end; ++next_move) {
       const Move& move = job.program.moves[next_move];
-      if (is_known_hole(move) || is_first_known(move)) pieces.push_back(piece_of_end(job, move, move));
+      for (const double u : fractions_of_holes(move)) pieces.push_back(piece_of_hole(job, move, move, u));
+      if (is_first_known(move)) pieces.push_back(piece_of_end(job, move, move));
     }
   };
   for (std::size_t s = 0; s < job.path.segments.size(); ++s) {

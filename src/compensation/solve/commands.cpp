@@ -1,6 +1,7 @@
 #include "compensation/solve/commands.hpp"
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 
@@ -48,25 +49,33 @@ Vector3 wanted_of(const Job& job, const Move& move) {
   return wanted_frame(job.path.frames[move.frame]) * (move.end_mm * mm);
 }
 
-Vector3 bottom_of(const Move& move) {
-  return {move.end_mm.x(), move.end_mm.y(), move.cycle->bottom_mm};
+Vector3 hole_of(const Move& move) {
+  return move.cycle ? bottom_of_hole(move, 1) : move.end_mm;
 }
 
-Vector3 hole_of(const Move& move) {
-  return move.cycle ? bottom_of(move) : move.end_mm;
+namespace {
+
+Piece piece_without_segment(const Job& job, const Move& original, const Vector3& commanded) {
+  return {.segment = no_segment,
+          .move = static_cast<std::size_t>(&original - job.program.moves.data()),
+          .line = original.line,
+          .frame = original.frame,
+          .commanded = {commanded, commanded, {}},
+          .end_only = true};
+}
+
+}  // namespace
+
+Piece piece_of_hole(const Job& job, const Move& original, const Move& found, double u) {
+  Piece piece =
+      piece_without_segment(job, original, position_of_words(job, original, bottom_of_hole(found, u)));
+  piece.u0 = piece.u1 = u;
+  return piece;
 }
 
 Piece piece_of_end(const Job& job, const Move& original, const Move& found) {
-  const Vector3 commanded =
-      original.cycle ? position_of_words(job, original, bottom_of(found)) : target_of(job, found);
-  Piece piece{.segment = no_segment,
-              .move = static_cast<std::size_t>(&original - job.program.moves.data()),
-              .line = original.line,
-              .frame = original.frame,
-              .commanded = {commanded, commanded, {}},
-              .end_only = true};
-  const std::optional<Matrix3> R = original.cycle ? std::nullopt : orientation_of(job, found);
-  if (R) piece.turn = Turn{*R, *R, {}};
+  Piece piece = piece_without_segment(job, original, target_of(job, found));
+  if (const std::optional<Matrix3> R = orientation_of(job, found)) piece.turn = Turn{*R, *R, {}};
   return piece;
 }
 
@@ -76,7 +85,8 @@ TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model&
     return {&model, point_at(segment.wanted, u), orientation_at(segment, u)};
   }
   const Move& move = job.program.moves[piece.move];
-  if (move.cycle) return {&model, wanted_frame(job.path.frames[move.frame]) * (bottom_of(move) * mm), {}};
+  if (move.cycle)
+    return {&model, wanted_frame(job.path.frames[move.frame]) * (bottom_of_hole(move, u) * mm), {}};
   return {&model, wanted_of(job, move), orientation_of(job, move)};
 }
 

@@ -34,17 +34,19 @@ std::optional<OrientationNumbers> turned_words(const Job& job, const Move& move,
 /// The end of a move of the original as a wanted position in M (m).
 Vector3 wanted_of(const Job& job, const Move& move);
 
-/// The bottom of a cycle's hole in program coordinates (mm).
-Vector3 bottom_of(const Move& move);
-
 /// The place of the hole that a move drills, in program coordinates (mm): its bottom, or where it is called.
+/// Of several holes the last one.
 Vector3 hole_of(const Move& move);
 
-/// The piece of a move without a segment: of the hole of a cycle, or of a position that is reached from one
-/// that is not known. `found` commands it: the same move, or the one that was written for it.
+/// The piece of the hole of a cycle at fraction `u` of its move (`fractions_of_holes`). `found` commands it:
+/// the same move, or the one that was written for it.
+Piece piece_of_hole(const Job& job, const Move& original, const Move& found, double u);
+
+/// The piece of a position that is reached from one that is not known. `found` commands it, as above.
 Piece piece_of_end(const Job& job, const Move& original, const Move& found);
 
-/// The wanted place at fraction `u` of the segment of a piece, or of one without a segment.
+/// The wanted place at fraction `u` of the segment of a piece, or of one without a segment: of a hole at
+/// fraction `u` of its move.
 TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model& model);
 
 /// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no

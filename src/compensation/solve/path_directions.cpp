@@ -8,6 +8,7 @@
 #include "compensation/solve/solver.hpp"
 #include "compensation/tuning.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
@@ -28,6 +29,7 @@ struct Place {
   TipPosition at{};
   const Segment* segment = nullptr;
   std::array<bool, 3> lost{};
+  bool ends_cut = false;
 };
 
 Place place_on(const Model& model, const Segment& segment, double u) {
@@ -46,23 +48,49 @@ void add_segment(const Job& job, const Segment& segment, std::vector<Place>& pla
   for (int k = 1; k < n; ++k) places.push_back(place_on(model, segment, static_cast<double>(k) / n));
   if (!straight) places.push_back(place_on(model, segment, 1 - at_ends / n));
   places.push_back(place_on(model, segment, 1));
+  places.back().ends_cut = segment.cutting;
 }
 
-/// A hole: the way there, if it is known, then down to its place. Cycles of G-code have their own bottom and
-/// retract plane; one that is called at the end of the move comes down to this end.
-void add_hole(const Job& job, std::size_t m, const Segment* way, std::vector<Place>& places) {
-  constexpr double above_mm = 1;
+/// The holes of a cycle of G-code: the way to each, as far as it is known, then down from the retract plane
+/// to the bottom. In X and Y the tool moves at the height at which the cycle leaves it.
+void add_holes_of_cycle(const Job& job, std::size_t m, const Segment* way, std::vector<Place>& places) {
   const Move& move = job.program.moves[m];
   const Model& model = model_of(job, m);
   const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
   const std::optional<Matrix3> R = orientation_of(job, move);
-  const auto add = [&](double u, const Vector3& p_M) { places.push_back({m, u, {&model, p_M, R}}); };
+  const auto add = [&](double u, const Vector3& place_mm, double z_mm) {
+    const Vector3 p_mm(place_mm.x(), place_mm.y(), z_mm);
+    places.push_back({m, u, {&model, X_MW * (p_mm * mm), R}});
+  };
+  if (way != nullptr) places.push_back({m, 0, {&model, way->wanted.start, R}});
+  double before = 0;
+  for (const double u : fractions_of_holes(move)) {
+    const auto between = [&](double share) { return before + share * (u - before); };
+    const Vector3 bottom_mm = bottom_of_hole(move, u);
+    const bool leaves_hole = before > 0 && move.known_end[2];
+    if (leaves_hole) add(between(0.125), bottom_of_hole(move, before), move.end_mm.z());
+    if (leaves_hole || way != nullptr) add(between(0.25), bottom_mm, move.end_mm.z());
+    add(between(0.5), bottom_mm, move.cycle->retract_mm);
+    add(u, bottom_mm, bottom_mm.z());
+    places.back().ends_cut = true;
+    before = u;
+  }
+}
+
+/// A hole of a cycle that is called at the end of a move: the way there, if it is known, then down to this
+/// end.
+void add_called_hole(const Job& job, std::size_t m, const Segment* way, std::vector<Place>& places) {
+  constexpr double above = 1 * mm;
+  const Move& move = job.program.moves[m];
+  const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
+  const std::optional<Matrix3> R = orientation_of(job, move);
+  const auto add = [&](double u, const Vector3& p_M) {
+    places.push_back({m, u, {&model_of(job, m), p_M, R}});
+  };
   if (way != nullptr) add(0, way->wanted.start);
-  if (way != nullptr && move.cycle) add(0.25, way->wanted.end);
-  const Vector3 place_mm = hole_of(move);
-  const double top_mm = move.cycle ? move.cycle->retract_mm : place_mm.z() + above_mm;
-  add(0.5, X_MW * (Vector3(place_mm.x(), place_mm.y(), top_mm) * mm));
-  add(1, X_MW * (place_mm * mm));
+  add(0.5, X_MW * (move.end_mm * mm + Vector3(0, 0, above)));
+  add(1, X_MW * (move.end_mm * mm));
+  places.back().ends_cut = true;
 }
 
 /// The position of a move from an unknown one.
@@ -101,10 +129,10 @@ std::vector<Place> places_of(const Job& job, const std::optional<Vector3>& last)
     add_lost(m, move.known_start, move.start_mm);
     const bool has_segment = next < job.path.segments.size() && job.path.segments[next].move == m;
     const Segment* const segment = has_segment ? &job.path.segments[next++] : nullptr;
-    const bool is_hole =
-        move.cycle ? move.known_end[0] && move.known_end[1] : move.makes_hole && all_known(move.known_end);
-    if (is_hole)
-      add_hole(job, m, segment, places);
+    if (!fractions_of_holes(move).empty())
+      add_holes_of_cycle(job, m, segment, places);
+    else if (move.makes_hole && all_known(move.known_end))
+      add_called_hole(job, m, segment, places);
     else if (segment != nullptr)
       add_segment(job, *segment, places);
     else if (all_known(move.known_end))
@@ -216,14 +244,12 @@ class Follower {
 
   /// At the end of a cut.
   void note_doubts(const Place& place, const Mechanism& mechanism) {
-    const Move& move = job_.program.moves[place.move];
-    const bool cuts = place.segment != nullptr ? place.segment->cutting : move.cycle || move.makes_hole;
-    if (!cuts || place.u != 1) return;
+    if (!place.ends_cut) return;
     for (std::size_t a = 0; a < end_.lost.size(); ++a) {
       DirectionsEnd::Lost& lost = end_.lost[a];
       if (lost.before == 0 || lost.reported || !(mechanism.reversal[a] > 0)) continue;
       lost.reported = true;
-      path_.add(DoubtfulDirection{move.line, a, lost.before});
+      path_.add(DoubtfulDirection{job_.program.moves[place.move].line, a, lost.before});
     }
   }
 

@@ -2,6 +2,7 @@
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "report/tally/may_cut.hpp"
 
 namespace counterflex {
@@ -17,16 +18,12 @@ bool cuts_at_end(const Move& move) {
   return move.makes_hole || move.mills_at_end;
 }
 
-bool counts(const Move& move, const Program& program) {
-  if (cuts_at_end(move)) return true;
-  if (move.cycle) return move.cycle->repeats > 0;
-  if (move.motion == Motion::rapid) return may_cut(move, program);
-  return !rests(move);
-}
-
-// A hole is solved at its bottom; it is not part of the cutting length.
-bool is_known_hole(const Move& move) {
-  return move.cycle && move.handling == Handling::own && !any_axis(move.fixed);
+/// Number of feed moves and holes of a move.
+std::size_t count_of(const Move& move, const Program& program) {
+  if (cuts_at_end(move)) return 1;
+  if (move.cycle) return static_cast<std::size_t>(count_of_holes(move));
+  if (move.motion == Motion::rapid) return may_cut(move, program) ? 1 : 0;
+  return rests(move) ? 0 : 1;
 }
 
 }  // namespace
@@ -35,10 +32,9 @@ void FeedTally::add_window(const Job& window) {
   for (const LeftAlone& block : window.program.left_alone) moves_.count += block.feeds;
   for (const Move& move : window.program.moves) {
     if (move.mills_at_end) ++moves_.count;  // the length milled around the end is unknown
-    if (!counts(move, window.program)) continue;
-    ++moves_.count;
+    moves_.count += count_of(move, window.program);
     const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
-    known_lengths_ += is_known_hole(move) || first_known;
+    known_lengths_ += fractions_of_holes(move).size() + first_known;
   }
   for (const Segment& segment : window.path.segments) {
     if (!segment.cutting && !cuts_at_end(window.program.moves[segment.move])) continue;

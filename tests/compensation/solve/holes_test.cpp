@@ -77,6 +77,29 @@ TEST_CASE("holes of cycles deviate as those of the same program in feed moves") 
   CHECK(push.z() == doctest::Approx(1e-7 * thrust.z()).epsilon(1e-6));  // of the head
 }
 
+TEST_CASE("each hole of a block with repeats deviates as that of a block of its own") {
+  const std::string begin = head + "G91 G98 G81 X20 Y-5 R-28 Z-14", end = "G90 G80\nG0 Z30\nM30\n";
+  const std::string repeated = begin + " L4\n" + end, single = begin + "\nX20 Y-5\nX20 Y-5\nX20 Y-5\n" + end;
+  const auto check_same = [](const std::vector<Waypoint>& all, const std::vector<Waypoint>& others) {
+    REQUIRE(all.size() == 4);
+    REQUIRE(others.size() == 4);
+    for (std::size_t i = 0; i < 4; ++i) {
+      CHECK((all[i].p_MT - others[i].p_MT).norm() < 1e-15);
+      CHECK((all[i].wrench - others[i].wrench).norm() < 1e-9);
+      CHECK((all[i].after - others[i].after).norm() < 1e-12);
+    }
+  };
+  check_same(bottoms(order_for(repeated, drilling())), bottoms(order_for(single, drilling())));
+  const auto corrected = [](const std::string& text) {
+    const Program original = read_program(text, "part.ngc", {});
+    std::vector<Waypoint> holes;
+    for (const Waypoint& w : compensated(Shop(order_for(text, drilling()))).waypoints)
+      if (is_place_of_cycle(original, w)) holes.push_back(w);
+    return holes;
+  };
+  check_same(corrected(repeated), corrected(single));
+}
+
 TEST_CASE("the correction of a hole puts its bottom where it is wanted under the thrust") {
   const Compensation result = compensated(Shop(order_for(cycles, drilling())));
   std::size_t holes = 0;

@@ -101,6 +101,16 @@ TEST_CASE("a cycle without holes stores its words and does not move") {
   CHECK(program.moves[2].cycle->bottom_mm == -5);
 }
 
+TEST_CASE("a cycle is not followed if the count of its repeats is not one that a control takes") {
+  for (const char* count : {"L10000", "L2.5", "L-1"}) {
+    CAPTURE(count);
+    const Program program =
+        read(std::string("G21 G90 G0 X0 Y0 Z10\nG91 G81 X1 Z-4 R-7 F100 ") + count + "\nX1\n");
+    CHECK_FALSE(program.moves[1].known_end[0]);
+    CHECK(program.left_alone.at(0).why.find("repeats") != std::string::npos);
+  }
+}
+
 TEST_CASE("a cycle with an expression is fixed") {
   const Program program = read("G21 G90 G0 X0 Y0 Z10\nG81 X[1+2] Y2 Z-5 R2 F100\nX3 Z#1\n");
   CHECK(program.moves[1].fixed[0]);

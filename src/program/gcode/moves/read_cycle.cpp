@@ -22,12 +22,15 @@ void keep_sticky(const Reading& r, const Word* word, std::optional<double>& valu
   if (word->literal) value = length_mm(r, *word);
 }
 
-/// L, or K of shop controls; 1 without such a word.
-int repeats_of(const Reading& r) {
+/// L, or K of shop controls; 1 without such a word. Empty: not an integer that a control takes.
+std::optional<int> repeats_of(const Reading& r) {
+  constexpr double most_repeats = 9999;
   const Word* word = r.sorted.word('L');
   if (word == nullptr && r.dialect.macro_words) word = r.sorted.word('K');
   if (word == nullptr) return 1;
-  return word->literal && word->value >= 0 && word->value < 10000 ? static_cast<int>(word->value) : 1;
+  if (!word->literal || !(word->value >= 0 && word->value <= most_repeats)) return std::nullopt;
+  if (word->value != std::floor(word->value)) return std::nullopt;
+  return static_cast<int>(word->value);
 }
 
 bool plain_words(const Reading& r) {
@@ -128,7 +131,8 @@ void fix_hole(Reading& r, Move& move, bool turned) {
   forget_initial(r.state);
 }
 
-std::string_view why_hole_stays(bool turned) {
+std::string_view why_hole_stays(const Reading& r, bool turned) {
+  if (plain_words(r) && !repeats_of(r)) return "the count of its repeats is not an integer from 0 to 9999";
   return turned ? "Z and R of an earlier hole are differences under G91 and coordinates under G90"
                 : "the cycle's words are not all plain numbers in G17";
 }
@@ -145,7 +149,8 @@ void read_cycle(const Block& block, Reading& r) {
 
   Move& move = start_move(block, r, Motion::rapid);
   CycleMove hole;
-  hole.repeats = repeats_of(r);
+  const std::optional<int> repeats = repeats_of(r);
+  hole.repeats = repeats.value_or(1);
   hole.first = is_first(r);
   hole.begins_series = begins;
   hole.initial_mm = state.cycle.initial.value_or(0);
@@ -154,7 +159,8 @@ void read_cycle(const Block& block, Reading& r) {
   hole.retract_word = axis_word(r.sorted.word('R'));
   set_levels(state, hole);
   if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
-  const bool followed = why.empty() && plain_words(r) && state.normal == 2 && state.cycle.bottom && !turned;
+  const bool followed =
+      why.empty() && plain_words(r) && repeats && state.normal == 2 && state.cycle.bottom && !turned;
   if (hole.repeats > 0) set_height_after_hole(state, hole);
   if (r.dialect.keeps_level && !state.level_is_stated && !is_above_start(state, hole)) {
     state.known[2] = false;
@@ -172,7 +178,7 @@ void read_cycle(const Block& block, Reading& r) {
   if (!own) move.handling = Handling::held;
   if (!followed) {
     fix_hole(r, move, turned);
-    note_uncorrected(block, r, why.empty() ? why_hole_stays(turned) : why);
+    note_uncorrected(block, r, why.empty() ? why_hole_stays(r, turned) : why);
   }
   finish_move(r, move);
   if (move.block_delete) forget_initial(state);
