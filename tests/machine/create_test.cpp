@@ -104,10 +104,16 @@ TEST_CASE("a file made without measurements is unmeasured, and a measured tip st
   CHECK(numbers_phrase(made(facts)) == "8 in [parameters]: 3 measured, 0 catalogue, 5 prior");
 }
 
+TEST_CASE("a squareness that is not given stays a prior beside one that is") {
+  MachineFacts facts = facts_of(MachineKind::mill3);
+  facts.squareness_um_per_m = {-18, std::nullopt, std::nullopt};
+  CHECK(numbers_phrase(made(facts)) == "8 in [parameters]: 1 measured, 0 catalogue, 7 prior");
+}
+
 TEST_CASE("the angles between the axes of a mill exceed 90 degrees by the given squareness") {
   for (const MachineKind kind : {MachineKind::mill3, MachineKind::mill3_table, MachineKind::gantry}) {
     MachineFacts facts = facts_of(kind);
-    facts.squareness_um_per_m = Vector3(-18, 12, -2500);
+    facts.squareness_um_per_m = {-18, 12, -2500};
     const std::vector<Vector3> axes = axes_of(made(facts));
     REQUIRE(axes.size() == 3);
     CHECK(std::abs(angle_between(axes[0], axes[1]) - pi / 2 + 18e-6) < 1e-14);

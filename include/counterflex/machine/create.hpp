@@ -56,17 +56,18 @@ struct LegNodes {
 /// What a shop knows of a machine. Facts that a kind does not use are ignored.
 struct MachineFacts {
   MachineKind kind = MachineKind::mill3;
-  std::string name{};                            ///< empty: that of the kind or of the robot
-  std::map<char, AxisRange> travel{};            ///< by letter; default: a usual one
-  std::optional<Vector3> squareness_um_per_m{};  ///< XY, YZ, ZX: by how much the angles exceed 90 degrees
-  std::optional<Vector3> tip_stiffness{};        ///< N/m, in the axes of M
-  std::optional<Vector3> pivot_mm{};             ///< where the rotary axes of a table cross, in machine axes
-  std::string robot{};                           ///< a name of `known_robots`
-  std::vector<LegNodes> nodes{};                 ///< six, or empty: an example
-  std::optional<Vector3> home_mm{};              ///< of a hexapod's platform
-  std::optional<double> leg_stiffness{};         ///< N/m: of a leg, a drive or a bar with its drive
-  std::optional<double> arm_mm{};                ///< of a delta or orthoglide: bars between their joints
-  std::optional<double> radius_mm{};             ///< of a delta: horizontal length of the bars at the centre
+  std::string name{};                  ///< empty: that of the kind or of the robot
+  std::map<char, AxisRange> travel{};  ///< by letter; default: a usual one
+  /// XY, YZ, ZX: by how much the angles exceed 90 degrees. Without a value 90 degrees, as a prior.
+  std::array<std::optional<double>, 3> squareness_um_per_m{};
+  std::optional<Vector3> tip_stiffness{};  ///< N/m, in the axes of M
+  std::optional<Vector3> pivot_mm{};       ///< where the rotary axes of a table cross, in machine axes
+  std::string robot{};                     ///< a name of `known_robots`
+  std::vector<LegNodes> nodes{};           ///< six, or empty: an example
+  std::optional<Vector3> home_mm{};        ///< of a hexapod's platform
+  std::optional<double> leg_stiffness{};   ///< N/m: of a leg, a drive or a bar with its drive
+  std::optional<double> arm_mm{};          ///< of a delta or orthoglide: bars between their joints
+  std::optional<double> radius_mm{};       ///< of a delta: horizontal length of the bars at the centre
 };
 
 /// The file's text. Throws `InputError` (ErrorKind::usage) for facts that make no machine: a robot that is

@@ -101,10 +101,10 @@ std::map<char, AxisRange> travel_of(const std::string& text, const KindOfMachine
   return travel;
 }
 
-Vector3 squareness_of(const std::string& text) {
+std::array<std::optional<double>, 3> squareness_of(const std::string& text) {
   constexpr std::array<std::string_view, 3> pairs = {"XY", "YZ", "ZX"};
   constexpr double most_um_per_m = 100000;  // 5.7 degrees; larger values have a wrong unit
-  Vector3 squareness = Vector3::Zero();
+  std::array<std::optional<double>, 3> squareness;
   for (const auto& [name, value] : entries_of(squareness_flag, text, "XY=-18")) {
     const auto found = std::find(pairs.begin(), pairs.end(), name);
     if (found == pairs.end())
@@ -113,7 +113,7 @@ Vector3 squareness_of(const std::string& text) {
     if (std::abs(excess) > most_um_per_m)
       refuse_flags(
           fmt::format("{} {} is '{}', must be from -100000 to 100000 µm/m", squareness_flag, name, value));
-    squareness[found - pairs.begin()] = excess;
+    squareness[static_cast<std::size_t>(found - pairs.begin())] = excess;
   }
   return squareness;
 }

@@ -152,16 +152,17 @@ class Mill {
             "  { error = \"YZ\" },       # squareness of Y and Z\n"
             "  { error = \"ZX\" },       # squareness of Z and X\n" +
             axis_line('Z', Z_) + "  { error = \"spindle\" },  # tilt of the spindle\n]\n";
-    if (!facts_.squareness_um_per_m) return text;
-    const Vector3& s = *facts_.squareness_um_per_m;
-    const Vector3 angle = slot_angles(s * um_per_m) / deg;
-    const auto line = [&](std::string_view slot, const Vector3& rotation, double given) {
-      return fmt::format("errors.{} = {{ rotvec_deg = {} }}  # {} µm/m\n", slot, triple(rotation),
-                         number(given));
+    const auto& [XY, YZ, ZX] = facts_.squareness_um_per_m;
+    if (!XY && !YZ && !ZX) return text;
+    const Vector3 excess = Vector3(XY.value_or(0), YZ.value_or(0), ZX.value_or(0)) * um_per_m;
+    const Vector3 angle = slot_angles(excess) / deg;
+    const auto line = [](std::string_view slot, const Vector3& rotation, const std::optional<double>& given) {
+      return fmt::format("errors.{} = {{ rotvec_deg = {} }}  # {}\n", slot, triple(rotation),
+                         given ? number(*given) + " µm/m" : "not given");
     };
     return text + "# Positive: the angle between the positive directions of the axes is above 90 degrees.\n" +
-           line("XY", {0, 0, angle.x()}, s.x()) + line("YZ", {angle.y(), 0, 0}, s.y()) +
-           line("ZX", {0, angle.z(), 0}, s.z());
+           line("XY", {0, 0, angle.x()}, XY) + line("YZ", {angle.y(), 0, 0}, YZ) +
+           line("ZX", {0, angle.z(), 0}, ZX);
   }
 
   std::string table() const {
@@ -178,20 +179,23 @@ class Mill {
            fmt::format("  {{ rigid = {{ xyz_mm = {} }} }},\n", triple(-pivot()));
   }
 
+  static Knowledge of_squareness(const std::optional<double>& given) {
+    if (given)
+      return {sigma(3 * um_per_m / deg), NumberSource::measured,
+              "--squareness-um-per-m; 3 µm/m as of a ball bar"};
+    return {sigma(50 * um_per_m / deg), NumberSource::prior, "50 µm/m, usual after some years of use"};
+  }
+
   std::string parameters() const {
-    const Knowledge squareness = facts_.squareness_um_per_m
-                                     ? Knowledge{sigma(3 * um_per_m / deg), NumberSource::measured,
-                                                 "--squareness-um-per-m; 3 µm/m as of a ball bar"}
-                                     : Knowledge{sigma(50 * um_per_m / deg), NumberSource::prior,
-                                                 "50 µm/m, usual after some years of use"};
+    const auto& [XY, YZ, ZX] = facts_.squareness_um_per_m;
     const Knowledge tilt{sigma(50 * um_per_m / deg), NumberSource::prior, "50 µm/m, usual; tram the spindle"};
     const Knowledge stiffness =
         facts_.tip_stiffness
             ? Knowledge{percent(5), NumberSource::measured,
                         "--tip-stiffness-N-per-um; 5 % as of gauge and load cell"}
             : Knowledge{percent(usual_.deviation), NumberSource::prior, std::string(usual_.source)};
-    std::string text = parameters_header() + stated("XY.rz_deg", squareness) +
-                       stated("YZ.rx_deg", squareness) + stated("ZX.ry_deg", squareness) +
+    std::string text = parameters_header() + stated("XY.rz_deg", of_squareness(XY)) +
+                       stated("YZ.rx_deg", of_squareness(YZ)) + stated("ZX.ry_deg", of_squareness(ZX)) +
                        stated("spindle.rx_deg", tilt) + stated("spindle.ry_deg", tilt);
     if (swivel_.letter != 0) {
       const Knowledge place{sigma(0.02), NumberSource::prior, "usual before the axes are calibrated"};

@@ -148,7 +148,7 @@ TEST_CASE("the stiffness at the tip of a made mill is the given one in all place
                                  MachineKind::table_ac, MachineKind::table_bc}) {
     MachineFacts facts = facts_of(kind);
     facts.tip_stiffness = Vector3(28e6, 22e6, 45e6);
-    facts.squareness_um_per_m = Vector3(-180, 120, 250);
+    facts.squareness_um_per_m = {-180, 120, 250};
     const Model model = prepare(read_machine(machine_file(facts), "made.toml"));
     StaticsWork work(model.mechanism);
     for (const Vector3& shift : {Vector3(0, 0, 0), Vector3(0.1, -0.05, 0.08)}) {
