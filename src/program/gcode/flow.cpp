@@ -19,7 +19,7 @@ std::uint16_t differences(const ModalState& a, const ModalState& b) {
   if (a.motion != b.motion) found |= unknown_motion;
   if (a.relative != b.relative) found |= unknown_distance;
   if (a.normal != b.normal) found |= unknown_plane;
-  if (a.unit != b.unit) found |= unknown_unit;
+  if (a.unit != b.unit || a.unit_is_of_lengths != b.unit_is_of_lengths) found |= unknown_unit;
   if (a.frame != b.frame) found |= unknown_offset;
   if (a.absolute_centres != b.absolute_centres) found |= unknown_centres;
   if (a.returns_to_retract != b.returns_to_retract) found |= unknown_level;

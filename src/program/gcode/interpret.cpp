@@ -200,9 +200,17 @@ void stop_spindle(Reading& r) {
   if (has_m(r.sorted, {5, 19})) r.state.spindle_off = true;
 }
 
+void remark_unknown_unit_of_feed(const Block& block, Reading& r) {
+  if (!r.state.unit || unit_of_feed(r)) return;
+  add_remark(r.program, block.line,
+             "F is in the basic system of the control under G70, and this system is not stated: feeds are "
+             "unknown from here on; state units of [program] in the machine file, or give --units");
+}
+
 /// In the order in which controls execute them.
 void apply_codes(const Block& block, Reading& r) {
   apply_feed_and_tool(r);
+  remark_unknown_unit_of_feed(block, r);
   start_spindle(r);
   end_unknown_cutter(r);
   apply_modes(block, r);

@@ -78,6 +78,7 @@ enum class Contour : std::uint8_t {
 struct ModalState {
   MotionMode motion = MotionMode::none;
   std::optional<LengthUnit> unit;
+  bool unit_is_of_lengths = false;  ///< G70 or G71 of a Sinumerik: F has the unit of the control
   std::array<bool, 3> known{};
   Vector3 position_mm = Vector3::Zero();
   bool turns_tool = false;  ///< a word of A, B or C was read as the tool's orientation

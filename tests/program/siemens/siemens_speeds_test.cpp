@@ -1,6 +1,7 @@
 // Feeds and spindle speeds of a Sinumerik that have names or expressions; 0 is unknown.
 #include <doctest/doctest.h>
 
+#include <optional>
 #include <utility>
 
 #include "program/reading.hpp"
@@ -34,7 +35,32 @@ std::vector<double> siemens_feeds(const std::string& lines, bool evaluate = fals
   return feeds;
 }
 
+/// Feed (mm/min) of G1 X2 behind `lines`, on a control whose basic system is `unit`.
+double siemens_feed_in(const std::string& lines, std::optional<LengthUnit> unit) {
+  ReadOptions options;
+  options.dialect = "siemens";
+  options.unit = unit;
+  const std::string program = lines + "G90 G17 G94 G54\nG0 X0 Y0 Z0\nG1 X1 F600\nX2\nX3 F600\n";
+  return read_program(program, "p.mpf", options).moves.back().feed_mm_min;
+}
+
 }  // namespace
+
+TEST_CASE("siemens: G70 and G71 set the unit of lengths, G700 and G710 that of F, too") {
+  constexpr LengthUnit mm_min = LengthUnit::millimetres, inch_min = LengthUnit::inches;
+  constexpr double inches = 600 * 25.4;
+  CHECK(siemens_feed_in("G70\n", mm_min) == 600);
+  CHECK(siemens_feed_in("G71\n", mm_min) == 600);
+  CHECK(siemens_feed_in("G700\n", mm_min) == doctest::Approx(inches));
+  CHECK(siemens_feed_in("G710\n", inch_min) == 600);
+  CHECK(siemens_feed_in("G70\n", inch_min) == doctest::Approx(inches));
+  CHECK(siemens_feed_in("G71\n", inch_min) == doctest::Approx(inches));
+  CHECK(siemens_feed_in("G70\nG700\n", mm_min) == doctest::Approx(inches));
+  CHECK(siemens_feed_in("G700\nG70\n", mm_min) == 600);
+  CHECK(siemens_feed_in("G700\n", std::nullopt) == doctest::Approx(inches));
+  CHECK(siemens_feed_in("G71\n", std::nullopt) == 600);
+  CHECK(siemens_feed_in("G70\n", std::nullopt) == 0);
+}
 
 TEST_CASE("siemens: a speed that is an expression is unknown, or its value with --evaluate") {
   for (const std::string lines : {"R2=4000\nS=R2\n", "S=1000*4\n", "R2=4000\nX2 S=R2\n"}) {

@@ -8,6 +8,7 @@
 
 #include "counterflex/geometry/curve.hpp"
 #include "program/expand/expand.hpp"
+#include "program/gcode/words/modal_words.hpp"
 
 namespace counterflex {
 namespace {
@@ -30,8 +31,10 @@ double feed_mm_min(const Reading& r) {
     return 0;
   // Whether OVR= acts on FB=, too, is not known.
   if (r.own_feed && state.feed_share != 1) return 0;
+  const std::optional<LengthUnit> own_unit = unit_of_feed(r);
+  if (r.own_feed && !own_unit) return 0;
   const double feed = r.own_feed
-                          ? *r.own_feed * mm_per(*state.unit)
+                          ? *r.own_feed * mm_per(*own_unit)
                           : state.feed_share * state.feed * mm_per(state.feed_unit.value_or(*state.unit));
   return state.feed_mode == FeedUnit::per_turn ? feed * spindle_rpm(state) : feed;
 }

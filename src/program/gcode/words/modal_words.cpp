@@ -13,9 +13,16 @@ void mark_known(ModalState& state, UnknownMode doubt) {
   state.unknown_modes &= static_cast<std::uint16_t>(~doubt);
 }
 
+/// G70 or G71, not G700 or G710.
+bool sets_unit_of_lengths(const SortedBlock& sorted) {
+  return std::ranges::any_of(sorted.g,
+                             [](const FoundG& g) { return g.code->tenths == 700 || g.code->tenths == 710; });
+}
+
 void apply_unit(Reading& r) {
   if (!r.sorted.has(Action::inches) && !r.sorted.has(Action::millimetres)) return;
   r.state.unit = r.sorted.has(Action::inches) ? LengthUnit::inches : LengthUnit::millimetres;
+  r.state.unit_is_of_lengths = r.dialect.sinumerik_words && sets_unit_of_lengths(r.sorted);
   mark_known(r.state, unknown_unit);
 }
 
@@ -52,8 +59,7 @@ void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
   const Word* f = r.sorted.word('F');
   // On some controls the F of a dwell is a time.
   if (f == nullptr || r.sorted.has(Action::dwell)) return;
-  r.state.feed = f->value;
-  r.state.feed_unit = r.dialect.feed_before_unit && unit_before ? unit_before : r.state.unit;
+  set_feed(r, f->value, r.dialect.feed_before_unit && unit_before ? unit_before : unit_of_feed(r));
 }
 
 /// S beside G92 is the highest speed on some shop controls.
@@ -165,6 +171,17 @@ void set_motion(ModalState& state, MotionMode motion) {
 }
 
 }  // namespace
+
+std::optional<LengthUnit> unit_of_feed(const Reading& r) {
+  if (!r.state.unit_is_of_lengths) return r.state.unit;
+  if (r.options.unit) return r.options.unit;
+  return r.state.unit == LengthUnit::millimetres ? r.state.unit : std::nullopt;
+}
+
+void set_feed(Reading& r, double value, std::optional<LengthUnit> unit) {
+  r.state.feed = r.state.unit_is_of_lengths && !unit ? 0 : value;
+  r.state.feed_unit = unit;
+}
 
 void apply_motion(Reading& r) {
   if (r.sorted.has(Action::end_motion))

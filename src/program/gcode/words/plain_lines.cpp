@@ -3,6 +3,7 @@
 #include <limits>
 
 #include "program/gcode/moves/read_move.hpp"
+#include "program/gcode/words/modal_words.hpp"
 #include "program/gcode/words/plain_words.hpp"
 #include "program/text/line_length.hpp"
 
@@ -67,8 +68,7 @@ class PlainReader {
     ++r_.program.block_count;
     if (words_.has(PlainWord::code)) state.motion = words_.code == 0 ? MotionMode::rapid : MotionMode::feed;
     if (!words_.has(PlainWord::feed)) return;
-    state.feed = number(PlainWord::feed).value;
-    state.feed_unit = state.unit;
+    set_feed(r_, number(PlainWord::feed).value, unit_of_feed(r_));
   }
 
   void add_move() {
