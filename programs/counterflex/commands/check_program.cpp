@@ -90,9 +90,9 @@ std::string units_text(const MoveFacts& facts) {
 
 std::string feeds_text(const MoveFacts& facts) {
   std::string text = facts.fastest == 0
-                         ? "none programmed"
+                         ? "none known"
                          : fmt::format("{:.6g} to {:.6g} mm/min", facts.slowest, facts.fastest);
-  if (facts.without_feed > 0) text += fmt::format("; {} feed moves without F", facts.without_feed);
+  if (facts.without_feed > 0) text += fmt::format("; {} feed moves without a known feed", facts.without_feed);
   return text;
 }
 
