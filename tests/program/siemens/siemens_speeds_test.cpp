@@ -17,8 +17,8 @@ Program siemens_speed_program(const std::string& lines, bool evaluate) {
   ReadOptions options;
   options.dialect = "siemens";
   options.evaluate = evaluate;
-  const std::string start = "G71 G90 G17 G94\nG54\nS8000 M3\nG0 X0 Y0 Z0\nG1 X1 F500\n";
-  return read_program(start + lines, "p.mpf", options);
+  const std::string head = "G71 G90 G17 G94\nG54\nS8000 M3\nG0 X0 Y0 Z0\nG1 X1 F500\n";
+  return read_program(head + lines, "p.mpf", options);
 }
 
 /// Feed (mm/min) and spindle speed (1/min) of a move behind `lines`.

@@ -34,8 +34,8 @@ const std::string data_begins = "<script type=\"application/json\" id=\"counterf
 /// The contents of elements that begin with `tag`.
 std::vector<std::string> contents(const std::string& page, const std::string& tag, const std::string& end) {
   std::vector<std::string> found;
-  for (std::size_t at = page.find(tag); at != std::string::npos; at = page.find(tag, at + 1))
-    found.push_back(between(page, tag, end, at));
+  for (std::size_t i = page.find(tag); i != std::string::npos; i = page.find(tag, i + 1))
+    found.push_back(between(page, tag, end, i));
   return found;
 }
 
