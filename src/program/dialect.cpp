@@ -43,6 +43,7 @@ constexpr Dialect shop_control(std::string_view name, unsigned family) {
           .block_delete_numbers = true,
           .reference_beside_motion = true,
           .macro_words = true,
+          .k_repeats_holes = (family & fanuc_family) != 0,
           .parentheses_nest = true,
           .comments_may_stay_open = true,
           .percent_names = true};

@@ -56,6 +56,7 @@ struct Dialect {
   bool number_anywhere = true;           ///< N may be anywhere in the block
   bool reference_beside_motion = false;  ///< G0 G28 is allowed; if false, it is an error
   bool macro_words = false;              ///< IF, GOTO, WHILE, and assignments up to the end of the line
+  bool k_repeats_holes = false;          ///< K is the count of a cycle; on a Haas it is the least peck
   bool keeps_level = false;              ///< G98 or G99 of the program before still acts
   bool o_words = false;                  ///< o<name> sub, if, while, call
   bool parentheses_nest = false;         ///< if false, a '(' in a comment is an ordinary character

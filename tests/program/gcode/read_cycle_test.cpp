@@ -111,6 +111,19 @@ TEST_CASE("a cycle is not followed if the count of its repeats is not one that a
   }
 }
 
+TEST_CASE("K is a count on a Fanuc, and the least peck on a Haas or beside I and J") {
+  const auto ends_at = [](const char* dialect, const char* words) {
+    const std::string text =
+        std::string("G21 G90 G0 X0. Y0. Z10.\nG91 G83 X1. Z-4. R-7. F100. ") + words + "\n";
+    return read(text, dialect).moves[1].end_mm.x();
+  };
+  CHECK(ends_at("fanuc", "Q1. K2") == 2);
+  CHECK(ends_at("fanuc", "I2. J1. K2.") == 1);
+  CHECK(ends_at("haas", "Q1. K2.") == 1);
+  CHECK(ends_at("haas", "I2. J1. K0.5") == 1);
+  CHECK(ends_at("haas", "Q1. L2") == 2);
+}
+
 TEST_CASE("a cycle with an expression is fixed") {
   const Program program = read("G21 G90 G0 X0 Y0 Z10\nG81 X[1+2] Y2 Z-5 R2 F100\nX3 Z#1\n");
   CHECK(program.moves[1].fixed[0]);

@@ -22,11 +22,12 @@ void keep_sticky(const Reading& r, const Word* word, std::optional<double>& valu
   if (word->literal) value = length_mm(r, *word);
 }
 
-/// L, or K of shop controls; 1 without such a word. Empty: not an integer that a control takes.
+/// L, or K of Fanuc; 1 without such a word. Beside I and J, K is a peck as on a Haas. Empty: not an integer
+/// that a control takes.
 std::optional<int> repeats_of(const Reading& r) {
   constexpr double most_repeats = 9999;
   const Word* word = r.sorted.word('L');
-  if (word == nullptr && r.dialect.macro_words) word = r.sorted.word('K');
+  if (word == nullptr && r.dialect.k_repeats_holes && !r.sorted.has_any("IJ")) word = r.sorted.word('K');
   if (word == nullptr) return 1;
   if (!word->literal || !(word->value >= 0 && word->value <= most_repeats)) return std::nullopt;
   if (word->value != std::floor(word->value)) return std::nullopt;
