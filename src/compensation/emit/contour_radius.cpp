@@ -188,8 +188,7 @@ class ContourReader {
   void read(std::size_t m) {
     const Move& move = job_.program.moves[m];
     if (is_known(move) && stays_in_plane(move)) return;
-    if (move.cutter_side == CutterSide::none || move.motion != Motion::feed || !is_known(move))
-      return finish();
+    if (move.cutter_side == CutterSide::none || !is_known(move)) return finish();
     ContourWay way = way_of(m, move.cutter_side);
     if (!ways_.empty() && !follows(way)) finish();
     if (ways_.empty()) put_approach(m, way);

@@ -122,6 +122,10 @@ TEST_CASE("a contour whose arc is divided beside an inner corner is listed with 
   const double s = std::sin(pi / 8);
   CHECK(result.narrowed[0].written_mm == doctest::Approx(50 * s / (1 + s)).epsilon(1e-3));
   CHECK(corrected_contour(disc, 1e-3, 1 * mm).narrowed.empty());
+  std::string with_rapid = disc;
+  with_rapid.replace(with_rapid.find("G1 X1."), 6, "G0 X1.");
+  REQUIRE(corrected_contour(with_rapid, 1e-3).narrowed.size() == 1);
+  CHECK(corrected_contour(with_rapid, 1e-3).narrowed[0].written_mm == result.narrowed[0].written_mm);
   const std::string outer = "G42 D10 X0.5 Y0. F300.\nX50.\nG3 X-50. Y0. I-50. J0.\nG1 X0.6\nG40 X0. Y-22.\n";
   CHECK(corrected_contour(outer, 1e-3).narrowed.empty());
 }
