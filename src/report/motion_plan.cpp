@@ -16,6 +16,10 @@ constexpr std::size_t look_ahead = 64;  // blocks
 enum class MoveHandling { corrected, held, grouped, left };
 
 void add_length(const Move& move, const Program& program, CutLength& cut) {
+  if (move.cycle) {
+    cut.unknown += static_cast<std::size_t>(count_of_holes(move)) - fractions_of_holes(move).size();
+    return;
+  }
   if (move.motion != Motion::feed && !may_cut(move, program)) return;
   if (all_known(move.known_start) && all_known(move.known_end))
     cut.known_mm += length(curve_of(move));

@@ -125,6 +125,14 @@ TEST_CASE("retracts and the ways between holes have no force") {
   CHECK(forces.unforced().empty());
 }
 
+TEST_CASE("each hole of a block with repeats counts as one without a force") {
+  const Program holes = hole_with("G91 G81 X5 Z-14 R-3 L4");
+  const ForceSource of_mill =
+      sections("[[section]]\ncutter = \"mill\"\nmaterial = \"steel\"\naxial_depth_mm = 2\nside = \"slot\"\n");
+  CHECK(forces_on(holes, of_mill).unforced().size() == 4);
+  CHECK(forces_on(holes, sections(drills_all)).unforced().empty());
+}
+
 TEST_CASE("a hole without a force is listed with the reason, without a length") {
   const Program hole = hole_with("G81 Z-12 R2");
   CHECK(reason(hole, sections("[[section]]\ncutter = \"mill\"\nmaterial = \"steel\"\naxial_depth_mm = 2\n"

@@ -36,6 +36,19 @@ TEST_CASE(
 }
 
 TEST_CASE(
+    "holes at unknown places count as feed moves of unknown length, each hole of a block with repeats") {
+  Program program = three_moves();
+  Move& block = program.moves[2];
+  block.motion = Motion::rapid;
+  block.relative = true;
+  block.cycle = CycleMove{.repeats = 4};
+  CHECK(motion_plan(program).corrected_cut.unknown == 0);
+  block.known_start[0] = block.known_end[0] = false;
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.corrected_cut.unknown + plan.held_cut.unknown + plan.left_cut.unknown == 4);
+}
+
+TEST_CASE(
     "a block that no edit can shift is not corrected, for the reason that its run of moves begins with") {
   Program program = three_moves();
   program.moves[1].fixed[0] = program.moves[2].fixed[0] = true;

@@ -7,6 +7,7 @@
 #include <cassert>
 #include <cmath>
 
+#include "counterflex/toolpath/reach.hpp"
 #include "forces/path/profile/profile_cover.hpp"
 #include "forces/turning_axes.hpp"
 
@@ -196,7 +197,9 @@ Vector6 RawForces::in_hole(std::size_t m, const Matrix3& R_MT, ForceRemarks& rem
   if (loses) remarks.notes.push_back(loss_at(move.line));
   const Vector6 F = source_.scale * in_machine_axes(axes, given.F);
   if (given.why.empty() && F.isZero(0)) given.why = loses ? no_lateral_direction : given_zero;
-  if (!given.why.empty()) remarks.unforced.push_back({move.line, 0, std::move(given.why)});
+  const std::size_t holes = move.cycle ? static_cast<std::size_t>(count_of_holes(move)) : 1;
+  if (!given.why.empty())
+    remarks.unforced.insert(remarks.unforced.end(), holes, {move.line, 0, std::move(given.why)});
   return F;
 }
 
