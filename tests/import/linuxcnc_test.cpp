@@ -151,6 +151,9 @@ TEST_CASE("the unit of length of the INI file is that of programs") {
   CHECK(units({{"arm.hal", serial_pins()}}).empty());
   CHECK(units({{"arm.ini", arm_ini}, {"arm.hal", serial_pins()}}) == "inch");
   CHECK(units({{"mill.ini", mill_ini}}) == "inch");
+  const std::string startup = "\n[RS274NGC]\nRS274NGC_STARTUP_CODE = G17 ";
+  CHECK(units({{"mill.ini", mill_ini + startup + "G20 G40\n"}}) == "inch");
+  CHECK(units({{"mill.ini", mill_ini + startup + "G21 G40\n"}}).empty());
   CHECK(units({{"h.ini", ini_mm}, {"h.hal", hexapod_pins()}}) == "mm");
 }
 

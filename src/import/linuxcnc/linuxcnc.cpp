@@ -53,7 +53,10 @@ std::string machine_name(const LinuxCnc& source) {
 
 std::string program_units(const LinuxCnc& source) {
   if (source.ini == nullptr) return "";
-  return source.length == inch ? "inch" : "mm";
+  const bool is_inch = source.length == inch;
+  const PlacedText* startup = source.ini->find("RS274NGC", "RS274NGC_STARTUP_CODE");
+  if (startup != nullptr && startup->text.find(is_inch ? "G21" : "G20") != std::string::npos) return "";
+  return is_inch ? "inch" : "mm";
 }
 
 }  // namespace import
