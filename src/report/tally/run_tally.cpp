@@ -1,5 +1,7 @@
 #include "counterflex/report/run_tally.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 
 #include "counterflex/compensation/outermost_commands.hpp"
