@@ -125,7 +125,7 @@ struct CycleMove {
   double initial_mm = 0;  ///< Z at which the series of this hole began; valid only if the end is known
   /// G99: the cycle leaves the tool at `retract_mm`; otherwise where the series began.
   bool returns_to_retract = false;
-  int repeats = 1;  ///< L or K
+  int repeats = 1;  ///< L, or K of Fanuc
 };
 
 /// A drilling cycle of a Sinumerik, called in the block or by every block with a position (MCALL), or of

@@ -29,7 +29,7 @@ Manifest read_record(const std::string& path) {
 }  // namespace
 
 WatchRecord::WatchRecord(const std::string& folder)
-    : folder_(folder), path_((fs::path(folder) / ".counterflex" / "watch.json").generic_string()) {
+    : path_((fs::path(folder) / ".counterflex" / "watch.json").generic_string()) {
   std::error_code missing;
   if (!fs::exists(path_, missing)) return;
   Manifest manifest = read_record(path_);

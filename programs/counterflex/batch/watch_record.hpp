@@ -30,7 +30,7 @@ class WatchRecord {
  private:
   void save() const;
 
-  std::string folder_, path_;
+  std::string path_;
   std::map<std::string, JobOutcome> programs_;
 };
 
