@@ -178,6 +178,24 @@ TEST_CASE("a Sinumerik drills with F, bores with FFR, and taps with its spindle"
   CHECK(thrust("MCALL CYCLE81(10,0,2,-12)\nX20 Y20\nMCALL") == doctest::Approx(at_180));
 }
 
+TEST_CASE("FFR of CYCLE85 has the unit of F, and is per minute") {
+  ReadOptions inches;
+  inches.dialect = "siemens";
+  inches.unit = LengthUnit::inches;
+  const auto thrust = [&](const std::string& units, const std::string& ffr, const ReadOptions& options) {
+    const std::string text = units +
+                             " G90 G17 G54\nT1 M6\nS1200 M3 F180\nG0 X10 Y20 Z10\nCYCLE85(10,0,2,-12,,0," +
+                             ffr + ",400)\nM30\n";
+    return in_first_hole(read_program(text, "p.mpf", options), sections(drills_all)).z();
+  };
+  const double at_180 = at_end_of_plunge(sections(drills_all), {}).z();
+  CHECK(thrust("G710", "180", inches) == doctest::Approx(at_180));
+  CHECK(thrust("G71", "7.0866142", inches) == doctest::Approx(at_180));
+  inches.unit = LengthUnit::millimetres;
+  CHECK(thrust("G71", "180", inches) == doctest::Approx(at_180));
+  CHECK(thrust("G95 G710", "0.15", inches) == 0);
+}
+
 TEST_CASE("klartext: a hole is drilled with Q206 of its cycle, from its definition or set later") {
   const auto thrust = [](const std::string& cycle, const std::string& feed, const std::string& later = "") {
     ReadOptions read;

@@ -7,6 +7,7 @@
 #include "counterflex/files/text.hpp"
 #include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/gcode/words/modal_words.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -155,21 +156,23 @@ void stop_modal_cycle(Reading& r) {
   r.state.displaced |= modal_macro;
 }
 
-/// The feed (mm/min) with which a call drills: F, or FFR of CYCLE85. 0: not known. Taps follow the spindle.
-double plunging_feed(std::string_view statement, double feed_mm_min) {
+/// The feed (mm/min) with which a call drills: F, or FFR of CYCLE85, which has the unit of F. 0: not known.
+/// Taps follow the spindle.
+double plunging_feed(std::string_view statement, const Reading& r, double feed_mm_min) {
   const auto call = call_at(statement, 0, statement.size());
   if (!call || is_word(call->name, "CYCLE84") || is_word(call->name, "CYCLE840")) return 0;
   if (!is_word(call->name, "CYCLE85")) return feed_mm_min;
-  if (call->arguments.size() <= bore_feed) return 0;
+  const auto unit = unit_of_feed(r);
+  if (call->arguments.size() <= bore_feed || !unit || r.state.feed_mode != FeedUnit::per_minute) return 0;
   const auto feed = number_at(statement, *call, bore_feed);
-  return feed ? std::max(feed->value, 0.0) : 0;
+  return feed ? std::max(feed->value, 0.0) * mm_per(*unit) : 0;
 }
 
 void make_hole(const CalledCycle& cycle, std::string_view statement, Reading& r, Move& move) {
   move.called = cycle;
   move.makes_hole = move.takes_no_z = true;
   move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
-  move.feed_mm_min = plunging_feed(statement, move.feed_mm_min);
+  move.feed_mm_min = plunging_feed(statement, r, move.feed_mm_min);
   // The heights are absolute, also under G91.
   if (move.relative) move.incremental = 3;
   move.relative = false;
