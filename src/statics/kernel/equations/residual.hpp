@@ -117,16 +117,29 @@ COUNTERFLEX_INLINE T jacobian_coefficient(T y) {
   return 1. / 12 + y * (1. / 720 + y * (1. / 30240 + y * (1. / 1209600)));
 }
 
+template <class T>
+COUNTERFLEX_INLINE T note_turn(const Vec3<T>& turn, T& largest_squared) {
+  const T y = dot(turn, turn);
+  largest_squared = larger(largest_squared, y);
+  return y;
+}
+
 /// phi = T' K (theta - theta_0) of a spring between the frames a and b.
 template <class T>
 COUNTERFLEX_INLINE void evaluate_spring(const Spring& spring, const Frame<T>& a, const Frame<T>& b,
                                         Work<T>& work, ElementTerms<T>& terms) {
+  terms.p = b.p;
+  if (spring.shape == SpringShape::isotropic) {  // the same in all axes; T' does not change its moment
+    terms.turn = log_so3(times_transposed(b.R, a.R));
+    note_turn(terms.turn, work.equations.largest_turn_squared);
+    const Vec3<T> f = (b.p - a.p) * spring.K[0];
+    terms.phi = {f, terms.turn * spring.K[21] + cross(b.p, f)};
+    return;
+  }
   Vec6<T> theta{transposed_times(a.R, b.p - a.p), log_so3(transposed_times(a.R, b.R))};
   terms.R = a.R;
-  terms.p = b.p;
   terms.turn = theta.w;
-  const T y = dot(theta.w, theta.w);
-  work.equations.largest_turn_squared = larger(work.equations.largest_turn_squared, y);
+  const T y = note_turn(theta.w, work.equations.largest_turn_squared);
   COUNTERFLEX_UNROLL
   for (int i = 0; i < 6; ++i) theta[i] -= work.question.preload * spring.theta_0[static_cast<std::size_t>(i)];
   const Vec6<T> F = stiff(spring, theta);

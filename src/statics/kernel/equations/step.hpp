@@ -80,6 +80,11 @@ COUNTERFLEX_INLINE void step_joint(const FrameStep& step, const Element& element
 /// turn does to stiff directions.
 template <class T>
 COUNTERFLEX_INLINE void predict_stress(const Spring& spring, const Vec6<T>& z, ElementTerms<T>& terms) {
+  if (spring.shape == SpringShape::isotropic) {
+    const Vec3<T> f = (z.v + cross(z.w, terms.p)) * spring.K[0];
+    terms.stress = terms.phi + Vec6<T>{f, z.w * spring.K[21] + cross(terms.p, f)};
+    return;
+  }
   const Vec6<T> F = stiff(
       spring, Vec6<T>{transposed_times(terms.R, z.v + cross(z.w, terms.p)), transposed_times(terms.R, z.w)});
   const Vec3<T> f = terms.R * F.v;

@@ -59,7 +59,7 @@ COUNTERFLEX_INLINE Sym6<T> isotropic_tangent(const Spring& spring, const Element
   const Vec3<T>& p = terms.p;
   const double k = spring.K[0] * spring.tangent_factor, k_turn = spring.K[21] * spring.tangent_factor;
   const T y = dot(terms.turn, terms.turn), c = jacobian_coefficient(y);
-  const Vec3<T> phi = terms.R * terms.turn, bent = phi * (k_turn * (2 * c - 0.25 - c * c * y));
+  const Vec3<T>&phi = terms.turn, bent = phi * (k_turn * (2 * c - 0.25 - c * c * y));
   const T diagonal = k_turn - dot(bent, phi) + k * dot(p, p);
   Sym6<T> K{};
   COUNTERFLEX_UNROLL

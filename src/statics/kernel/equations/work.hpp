@@ -51,8 +51,8 @@ struct ElementTerms {
   /// Gradient of its energy with respect to its end's twist: minus the wrench on what is behind.
   Vec6<T> phi;
   Vec6<T> stress;   ///< the phi with which tangents are made
-  Mat3<T> R;        ///< of the frame at its start
-  Vec3<T> p, turn;  ///< of a spring: place of its end; rotation vector of its deflection
+  Vec3<T> p, turn;  ///< of a spring: place of its end; rotation vector of its deflection, in axes of R
+  Mat3<T> R;        ///< of the frame at its start; not set for an isotropic spring, whose axes are those of M
 };
 
 /// The gradient of energy at a state, and the error of the tip.
