@@ -81,6 +81,7 @@ void put_state_of_cell(const StartCell& cell, const Mask<T>& lanes, const Point<
   TermValues<T> of_stress;
   fill(cell.stress_changes, x, terms.acting, of_stress);
   for (int i = 0; i < static_cast<int>(machine.elements.size()); ++i) {
+    if (at(machine.elements, i).kind == ElementKind::group) continue;
     const Block<T> change = sum(cell.stress_changes, i, of_stress);
     Vec6<T>& stress = at(work.start_stress, i);
     for (int k = 0; k < 3; ++k) {
