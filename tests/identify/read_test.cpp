@@ -57,6 +57,18 @@ TEST_CASE("columns have units in their names, and actuators have numbers or lett
   CHECK(all.sessions[0].sigma_given);
 }
 
+TEST_CASE("files of one name in two folders are two sessions") {
+  const std::string row = "kind,X_mm,Y_mm,Z_mm,x_mm,y_mm,z_mm\ntracker_point,10,20,30,1,2,3\n";
+  const Machine machine = mill();
+  Measurements all;
+  for (const std::string file :
+       {"day1/tracker.csv", "day2/tracker.csv", "day2/tracker.csv", "day2/other.csv"})
+    read_measurements(row, file, machine, all);
+  std::vector<std::string> names;
+  for (const Session& session : all.sessions) names.push_back(session.name);
+  CHECK(names == std::vector<std::string>{"tracker", "day2/tracker.csv", "other"});
+}
+
 TEST_CASE("semicolons come with decimal commas") {
   const Measurements all = read(
       "# an export\n"

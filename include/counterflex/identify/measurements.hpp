@@ -86,6 +86,7 @@ struct Session {
   /// Pushes: whether rows were read while the force grew, and while it fell. With both, half the difference
   /// that friction makes is unknown.
   bool has_loading = false, has_unloading = false;
+  std::string file{};  ///< of its first row
 };
 
 /// One of several readings at the same place. No fit uses it.

@@ -84,8 +84,18 @@ class RowReader {
   std::string session_name() const {
     const csv::Field* field = table_->text("session");
     if (field != nullptr && !field->text.empty()) return without_controls(field->text);
-    return description_.session.empty() ? std::filesystem::path(file_).stem().generic_string()
-                                        : description_.session;
+    return description_.session.empty() ? name_of_file() : description_.session;
+  }
+
+  /// With its folder where a file that was read before has the same name.
+  std::string name_of_file() const {
+    const auto stem_of = [](const std::string& file) {
+      return std::filesystem::path(file).stem().generic_string();
+    };
+    const bool is_taken = std::ranges::any_of(all_.sessions, [&](const Session& session) {
+      return session.file != file_ && stem_of(session.file) == stem_of(file_);
+    });
+    return is_taken ? file_ : stem_of(file_);
   }
 
   /// `part` distinguishes rows of one session whose unknowns differ.
@@ -100,6 +110,7 @@ class RowReader {
       return i;
     }
     all_.sessions.push_back({name, kind, sigma_given, description_.X_TB});
+    all_.sessions.back().file = file_;
     all_.sessions.back().has_known_frame = description_.has_known_frame;
     if (description_.probe_sigma) all_.sessions.back().probe_sigma = *description_.probe_sigma;
     return all_.sessions.size() - 1;

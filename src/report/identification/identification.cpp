@@ -219,7 +219,10 @@ std::string to_text(const Identification& found, bool all_parameters) {
       text += fmt::format("             orientation: {} (deg)\n",
                           pair_of(group.angle_before, group.angle_after, deg));
   }
-  if (found.held_out.empty()) text += "held out     nothing: there are too few rows to test the fit\n";
+  if (found.held_out.empty())
+    text +=
+        "held out     nothing: there are not two groups (sessions, regions or parts) with enough rows; see "
+        "--hold-out\n";
   for (const LadderStep& step : found.ladder) {
     text += fmt::format("{:<12} {}: removes {:.1f} % of the held-out error, standard error {:.1f} %\n",
                         step.is_kept ? "kept" : "rejected", name_of(step.set), 100 * step.gain,
