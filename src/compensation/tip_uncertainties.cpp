@@ -23,7 +23,7 @@ TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, c
   if (!machine.uncertainty) return all;
   const TipUncertainty& own = all.by_model.emplace(&model, TipUncertainty(machine, model)).first->second;
   for (const auto& [number, with] : tools)
-    all.by_model.emplace(&with, TipUncertainty(with_tool(machine, machine.tools.at(number)), with));
+    all.by_model.emplace(&with, TipUncertainty(machine, with, &machine.tools.at(number)));
   for (const WorkFrame& frame : frames)
     all.by_frame.push_back(frame.touched ? datum_tangents(*frame.touched, model, own) : DatumTangents{});
   return all;

@@ -116,6 +116,7 @@ class Lister {
         list_.push_back({prefix + name + (turns ? ".compliance_rad_per_Nm" : ".compliance_m_per_N"),
                          ParameterKind::compliance, 1, &element});
       } else if (auto* mass = std::get_if<PointMass>(&element)) {
+        if (mass->is_of_tool) continue;
         const std::string name = mass->name.empty() ? fmt::format("mass{}", ++masses) : mass->name;
         list_.push_back({prefix + name + ".kg", ParameterKind::mass, 1, &element});
       } else if (auto* spring = std::get_if<Spring>(&element)) {

@@ -73,6 +73,7 @@ Machine with_tool(const Machine& machine, const Tool& tool) {
     // Before the tool's springs, so that the holder's place in the platform carries it.
     PointMass mass = *tool.mass;
     mass.at = X_PT * mass.at;
+    mass.is_of_tool = true;
     std::vector<Element>& elements = result.chains.front().elements;
     if (result.ends_with_tool_mass)
       elements.back() = mass;

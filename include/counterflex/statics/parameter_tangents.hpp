@@ -13,10 +13,11 @@ namespace counterflex {
 /// share it.
 class ParameterTangents {
  public:
-  /// `varied`: indices into `parameters(machine)`. `model` is that of `machine`. `and_load`: the size of the
-  /// load is varied, too, behind the parameters.
+  /// `varied`: indices into `parameters(machine)`. `model` is that of `machine`, or of the machine with a
+  /// tool of [tools]. A zero that was set under weight is that of `machine` itself. `and_load`: the size of
+  /// the load is varied, too, behind the parameters.
   ParameterTangents(const Machine& machine, const Model& model, const std::vector<std::size_t>& varied,
-                    bool and_load = false);
+                    bool and_load = false, const Tool* tool = nullptr);
   ~ParameterTangents();
   ParameterTangents(ParameterTangents&&) noexcept;
 

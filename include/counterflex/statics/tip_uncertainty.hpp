@@ -25,8 +25,9 @@ struct DatumTangents {
 /// reference to nothing; threads may share it.
 class TipUncertainty {
  public:
-  /// `machine` has an uncertainty, and a temperature if that is uncertain. `model` is that of `machine`.
-  TipUncertainty(const Machine& machine, const Model& model);
+  /// `machine` has an uncertainty, and a temperature if that is uncertain. `model` is that of `machine`, or
+  /// of the machine with a tool of [tools].
+  TipUncertainty(const Machine& machine, const Model& model, const Tool* tool = nullptr);
 
   /// Memory for one thread.
   StaticsWork work() const { return tangents_.work(); }

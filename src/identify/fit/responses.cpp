@@ -57,20 +57,16 @@ class Signs {
 
 }  // namespace
 
-std::map<long, MachineWithTool> machines_of(const Machine& machine, const States& states) {
-  std::map<long, MachineWithTool> machines;
+std::map<long, Model> models_of(const Machine& machine, const States& states) {
+  std::map<long, Model> models;
   const Model base = prepare(machine);
   for (const CommandedState* state : states.state) {
-    if (machines.contains(state->tool)) continue;
-    if (state->tool == 0) {
-      machines.emplace(0, MachineWithTool{machine, base});
-      continue;
-    }
-    const Tool& tool = machine.tools.at(state->tool);
-    machines.emplace(state->tool,
-                     MachineWithTool{with_tool(machine, tool), prepare_with_tool(machine, base, tool)});
+    if (models.contains(state->tool)) continue;
+    const bool is_base = state->tool == 0;
+    models.emplace(state->tool,
+                   is_base ? base : prepare_with_tool(machine, base, machine.tools.at(state->tool)));
   }
-  return machines;
+  return models;
 }
 
 States nominal_states(const Machine& machine, const Measurements& measurements, int threads) {
@@ -83,13 +79,13 @@ States nominal_states(const Machine& machine, const Measurements& measurements, 
       row_of.push_back(&row);
     }
   }
-  const std::map<long, MachineWithTool> machines = machines_of(machine, states);
+  const std::map<long, Model> models = models_of(machine, states);
   states.nominal.resize(states.state.size());
   states.X_MT.resize(states.state.size());
   std::vector<Status> found(states.state.size());
   for_each_index((states.state.size() + slice - 1) / slice, threads, [&](std::size_t s) {
     for (std::size_t i = s * slice; i < std::min((s + 1) * slice, states.state.size()); ++i) {
-      const Model& model = machines.at(states.state[i]->tool).model;
+      const Model& model = models.at(states.state[i]->tool);
       const NominalResult nominal =
           nominal_forward(model, model.home, joint_values(model.mechanism.shown, states.state[i]->shown));
       found[i] = nominal.status;
@@ -99,19 +95,20 @@ States nominal_states(const Machine& machine, const Measurements& measurements, 
   });
   for (std::size_t i = 0; i < found.size(); ++i)
     if (found[i] != Status::converged)
-      throw InputError(
-          ErrorKind::machine_or_force, row_of[i]->at,
-          fmt::format("the machine cannot be at the actuator values {} (mm, deg)",
-                      shown_words(machines.at(states.state[i]->tool).model, states.state[i]->shown)));
+      throw InputError(ErrorKind::machine_or_force, row_of[i]->at,
+                       fmt::format("the machine cannot be at the actuator values {} (mm, deg)",
+                                   shown_words(models.at(states.state[i]->tool), states.state[i]->shown)));
   return states;
 }
 
 std::vector<Response> responses(const Machine& machine, const std::vector<std::size_t>& varied,
                                 const States& states, int threads, std::vector<Configuration>& loaded) {
-  const std::map<long, MachineWithTool> machines = machines_of(machine, states);
-  std::map<long, ParameterTangents> all_tangents;  // parameters of a tool are behind those of the machine
-  for (const auto& [tool, with] : machines)
-    all_tangents.emplace(tool, ParameterTangents(with.machine, with.model, varied));
+  const std::map<long, Model> models = models_of(machine, states);
+  std::map<long, ParameterTangents> all_tangents;
+  for (const auto& [number, model] : models) {
+    const Tool* tool = number != 0 ? &machine.tools.at(number) : nullptr;
+    all_tangents.emplace(number, ParameterTangents(machine, model, varied, false, tool));
+  }
   const Signs signs(machine, varied);
   std::vector<Response> found(states.state.size());
   const bool has_starts = !loaded.empty();
@@ -120,7 +117,7 @@ std::vector<Response> responses(const Machine& machine, const std::vector<std::s
     std::map<long, std::pair<StaticsWork, StaticsWork>> works;  // of equilibria and of tangents
     for (std::size_t i = s * slice; i < std::min((s + 1) * slice, found.size()); ++i) {
       const CommandedState& state = *states.state[i];
-      const Model& model = machines.at(state.tool).model;
+      const Model& model = models.at(state.tool);
       const ParameterTangents& tangents = all_tangents.at(state.tool);
       auto& [work, tangent_work] =
           works.try_emplace(state.tool, StaticsWork(model.mechanism), tangents.work()).first->second;

@@ -17,12 +17,8 @@ struct States {
   std::vector<Pose> X_MT;  ///< nominal tips
 };
 
-/// The machine with each of the tools that states have in the spindle, 0 for that of [tool].
-struct MachineWithTool {
-  Machine machine;
-  Model model;
-};
-std::map<long, MachineWithTool> machines_of(const Machine& machine, const States& states);
+/// Models of the machine with each of the tools that states have in the spindle, 0 for that of [tool].
+std::map<long, Model> models_of(const Machine& machine, const States& states);
 
 /// Throws `InputError` at the first row whose state the nominal machine cannot reach. Keeps pointers into
 /// `measurements`.

@@ -147,6 +147,22 @@ Eigen::VectorXd offset_tangent(const Machine& machine, std::size_t index) {
   return (offsets(value + step) - offsets(value - step)) / (2 * step);
 }
 
+/// Where the parameters of a machine are in it with a tool, if there is one. They have the same order there,
+/// before those of the tool. A mass of [tool] in whose place the tool has its own is without an element.
+std::vector<ParameterPlace> places_with(const Tool* tool, Machine machine, Machine& with) {
+  const bool has_own_mass = tool != nullptr && tool->mass && machine.ends_with_tool_mass;
+  const Element* const replaced = has_own_mass ? &machine.chains.front().elements.back() : nullptr;
+  const std::vector<ParameterPlace> there = parameter_places(with);
+  std::vector<ParameterPlace> places = parameter_places(machine);
+  std::size_t next = 0;
+  for (ParameterPlace& place : places)
+    if (place.element == replaced)
+      place.element = nullptr;
+    else
+      place.element = there[next++].element;
+  return places;
+}
+
 }  // namespace
 
 struct ParameterTangents::Impl {
@@ -168,10 +184,16 @@ struct ParameterTangents::Impl {
 };
 
 ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
-                                     const std::vector<std::size_t>& varied, bool and_load)
-    : impl_(std::make_unique<Impl>(Impl{model.mechanism, machine, {}, {}, {}, {}, and_load})) {
-  const std::vector<ParameterPlace> all = parameter_places(impl_->machine);
+                                     const std::vector<std::size_t>& varied, bool and_load, const Tool* tool)
+    : impl_(std::make_unique<Impl>(Impl{model.mechanism,
+                                        tool != nullptr ? with_tool(machine, *tool) : machine,
+                                        {},
+                                        {},
+                                        {},
+                                        {},
+                                        and_load})) {
   const std::vector<Parameter> values = parameters(machine);
+  const std::vector<ParameterPlace> all = places_with(tool, machine, impl_->machine);
   for (const std::size_t index : varied)
     if (auto* error = std::get_if<AssemblyError>(all[index].element))
       *all[index].element = Spring{error->name};
@@ -179,7 +201,7 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
   const Mechanism& mechanism = impl_->model.mechanism;
   int variable = 0;
   std::map<const Element*, PartPlace> places;
-  for (std::size_t i = 0; i < machine.chains.size(); ++i)
+  for (std::size_t i = 0; i < impl_->machine.chains.size(); ++i)
     place_parts(impl_->machine.chains[i], mechanism.chains[i], !mechanism.gravity.isZero(0), variable,
                 places);
   impl_->actuators.resize(mechanism.travel.size());
@@ -191,7 +213,9 @@ ParameterTangents::ParameterTangents(const Machine& machine, const Model& model,
     const ParameterPlace& place = all[index];
     VariedParameter entry{place.kind, values[index].value, place.component};
     if (const auto found = places.find(place.element); found != places.end()) entry.at = found->second;
-    if (place.kind == ParameterKind::mass) {
+    if (place.element == nullptr) {
+      entry.heavier = impl_->model;  // it does not act
+    } else if (place.kind == ParameterKind::mass) {
       std::get<PointMass>(*place.element).kg += 1;
       entry.heavier = varied_model(impl_->machine, model.mechanism);
       std::get<PointMass>(*place.element).kg -= 1;

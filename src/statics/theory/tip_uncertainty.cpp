@@ -18,11 +18,11 @@ Vector6 part_twist(const Mechanism& mechanism, const Load& load, const Pose& X_M
 
 }  // namespace
 
-TipUncertainty::TipUncertainty(const Machine& machine, const Model& model)
+TipUncertainty::TipUncertainty(const Machine& machine, const Model& model, const Tool* tool)
     : mechanism_(model.mechanism),
       uncertainty_(*machine.uncertainty),
       known_(uncertain_parameters(machine)),
-      tangents_(machine, model, parameter_indices(machine, known_.names), true) {
+      tangents_(machine, model, parameter_indices(machine, known_.names), true, tool) {
   if (uncertainty_.temperature == 0) return;
   const ThermalTable& table = *machine.thermal;
   constexpr double step = 1e-3;  // K: shift and growth are linear between the temperatures of the table

@@ -179,6 +179,67 @@ TEST_CASE("a band is along the deviation, or in the most uncertain direction whe
   CHECK(std::abs(band_direction({1e-18, 0, 0}, Vector3(0, 4, 9).asDiagonal()).z()) == doctest::Approx(1));
 }
 
+TEST_CASE("with a tool a band has the parameters of the machine, and of [tool] only the zero") {
+  const auto gantry = [](const std::string& zero) {
+    return read_machine(
+        "format = \"counterflex-machine 1\"\nname = \"gantry\"\ncontrolled = [\"x\", \"y\", \"z\"]\n"
+        "gravity_m_s2 = [0, 0, -9.81]\n" +
+            zero +
+            "[tool]\nxyz_mm = [0, 0, -90]\nmass = { kg = 10, at_mm = [0, 0, 60] }\n"
+            "[tools.T1]\nmass = { kg = 30, at_mm = [5, 0, 60] }\n[uncertainty]\nforce_percent = 0.001\n"
+            "[parameters]\n\"tool.kg\" = { sigma = 5, source = \"prior\" }\n"
+            "\"head.z_m_per_N\" = { prior_percent = 40, source = \"prior\" }\n"
+            "[springs.head]\nstiffness_diag_si = [1e9, 1e9, 1e7, 1e6, 1e6, 1e6]\n"
+            "[[chain]]\nname = \"axes\"\nelements = [\n"
+            "{ actuator = \"prismatic\", axis = \"x\", min_mm = 0, max_mm = 400 },\n"
+            "{ actuator = \"prismatic\", axis = \"y\", min_mm = 0, max_mm = 300 },\n"
+            "{ actuator = \"prismatic\", axis = \"z\", min_mm = -300, max_mm = 0 },\n{ spring = \"head\" "
+            "},\n]\n",
+        "gantry.toml");
+  };
+  // Chains that have become branches before the tool.
+  const Machine delta = made_with(MachineKind::delta,
+                                  "\n[uncertainty]\nforce_percent = 10\n[tools.T1]\nmass = { kg = 2 }\n"
+                                  "holder_N_per_um = 20\n");
+  for (const Machine& machine : {gantry(""), gantry("gravity_reference = \"home\"\n"), delta}) {
+    CAPTURE(machine.name);
+    const Tool& tool = machine.tools.at(1);
+    const auto with_tool_1 = [&](const Machine& of) { return prepare_with_tool(of, prepare(of), tool); };
+    Load load;
+    load.F << 20, -10, 30, 0, 0, 0;
+    const auto solved = [&](const Model& model) {
+      StaticsWork work(model.mechanism);
+      const NominalResult nominal =
+          nominal_forward(model, model.home, actuator_values(model.mechanism, with_tool_1(machine).home));
+      const Equilibrium found = solve_forward(model, nominal.configuration, load, Stage{}, work);
+      REQUIRE(found.status == Status::converged);
+      return found.configuration;
+    };
+    const KnownParameters known = uncertain_parameters(machine);
+    const std::vector<std::size_t> at = parameter_indices(machine, known.names);
+    REQUIRE(at.size() >= 2);
+    std::vector<double> values;
+    for (const Parameter& parameter : parameters(machine)) values.push_back(parameter.value);
+    Eigen::Matrix<double, 6, Eigen::Dynamic> J(6, known.covariance.cols());
+    for (std::size_t k = 0; k < at.size(); ++k) {
+      const auto i = static_cast<Eigen::Index>(k);
+      const double step = 1e-2 * std::sqrt(known.covariance(i, i));
+      const auto tip_at = [&](double by) {
+        std::vector<double> moved = values;
+        moved[at[k]] += by;
+        const Model model = with_tool_1(with_parameters(machine, moved));
+        return tip(model.mechanism, solved(model));
+      };
+      J.col(i) = difference(tip_at(step), tip_at(-step)) / (2 * step);
+    }
+    const Model model = with_tool_1(machine);
+    const TipUncertainty uncertainty(machine, model, &tool);
+    StaticsWork work = uncertainty.work();
+    const Matrix6 found = uncertainty.of_tip(solved(model), load, work).parameters;
+    CHECK(apart(found, J * known.covariance * J.transpose()) < 1e-3);
+  }
+}
+
 TEST_CASE(
     "at the place where the part was touched off, the machine's parameters are not uncertain without a "
     "load") {
