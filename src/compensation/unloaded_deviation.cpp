@@ -1,29 +1,33 @@
 #include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
 
 void PathPlaces::add(const Program& window) {
   for (const Move& move : window.moves) {
-    if (move.motion != Motion::feed || !all_known(move.known_start) || !all_known(move.known_end)) continue;
     const ProgramFrame& frame = window.frames[move.frame];
     if (is_set(frame)) continue;
-    add(move, frame, offsets_[frame.work_offset]);
+    for (const Curve& hole : holes_of_cycle(move)) add(hole, move, frame);
+    if (move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end))
+      add(curve_of(move), move, frame);
   }
 }
 
-void PathPlaces::add(const Move& move, const ProgramFrame& frame, OfOffset& of) {
-  const Curve curve = in_offset(frame) * curve_of(move);
+void PathPlaces::add(const Curve& way_of_tip, const Move& move, const ProgramFrame& frame) {
+  const Curve curve = in_offset(frame) * way_of_tip;
   const double way = length(curve);
   if (!(way > 0)) return;
+  OfOffset& of = offsets_[frame.work_offset];
   for (double next = of.spacing_mm * static_cast<double>(of.places.size()); next <= of.way_mm + way;
        next = of.spacing_mm * static_cast<double>(of.places.size())) {
     if (of.places.size() < most) {
       const double u = (next - of.way_mm) / way;
-      PathPlace& place = of.places.emplace_back(PathPlace{point_at(curve, u), move.tool});
-      if (move.orientation) place.R = in_offset(frame).R * orientation_at(turn_of(*move.orientation), u);
+      PathPlace& place = of.places.emplace_back(PathPlace{point_at(curve, u)});
+      const double turned = move.motion == Motion::feed ? u : 1;  // a hole is at the end of its move
+      if (move.orientation) place.R = in_offset(frame).R * orientation_at(turn_of(*move.orientation), turned);
       continue;
     }
     for (std::size_t k = 0; k < most / 2; ++k) of.places[k] = of.places[2 * k];
@@ -48,14 +52,14 @@ UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* s
   return {Status::converged, actual.X_MT.p - wanted.X_MT.p};
 }
 
-std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
-                                    std::span<const PathPlace> places, const StartTables* starts) {
+std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
+                                    const StartTables* starts) {
   Vector3 sum = Vector3::Zero();
   int solved = 0;
   for (const PathPlace& place : places) {
     const std::optional<Matrix3> R_MT = place.R ? std::optional<Matrix3>(X_MW.R * *place.R) : std::nullopt;
-    const UnloadedDeviation here = unloaded_deviation(
-        {&model_with(model, &tools, place.tool), X_MW * Vector3(place.p_mm * mm), R_MT}, starts);
+    const UnloadedDeviation here =
+        unloaded_deviation({&model, X_MW * Vector3(place.p_mm * mm), R_MT}, starts);
     if (here.status != Status::converged) break;  // a run ends there, too; each further place takes long
     sum += here.d;
     ++solved;

@@ -126,13 +126,16 @@ std::vector<std::string> at_commas(const std::string& text) {
   return parts;
 }
 
-/// In quotation marks where TOML requires them.
+}  // namespace
+
 std::string toml_key(const std::string& name) {
   const bool bare = std::all_of(name.begin(), name.end(), [](char c) {
-    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9');
+    return (c >= 'a' && c <= 'z') || (c >= 'A' && c <= 'Z') || (c >= '0' && c <= '9') || c == '_' || c == '-';
   });
   return bare && !name.empty() ? name : toml_text(name);
 }
+
+namespace {
 
 std::string datum_line(const std::string& datum) {
   const std::size_t equals = datum.find('=');

@@ -115,12 +115,12 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
 /// A place on a feed move.
 struct PathPlace {
   Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset
-  long tool = 0;                   ///< in the spindle
   std::optional<Matrix3> R{};      ///< orientation there, where the program gives one
 };
 
-/// Places on the feed moves of a program, for each work offset at equal distances along its moves: at most
-/// 64, and at least 32 on a path above a millimetre. Where the program is cut into windows changes nothing.
+/// Places on the feed moves of a program and in the holes of its cycles, for each work offset at equal
+/// distances along them: at most 64, and at least 32 on a path above a millimetre. Where the program is cut
+/// into windows changes nothing.
 class PathPlaces {
  public:
   static constexpr std::size_t most = 64;
@@ -137,7 +137,7 @@ class PathPlaces {
     double spacing_mm = 1e-3, way_mm = 0;
     std::vector<PathPlace> places;  ///< place k is at k times the spacing
   };
-  static void add(const Move& move, const ProgramFrame& frame, OfOffset& of);
+  void add(const Curve& way_of_tip, const Move& move, const ProgramFrame& frame);
 
   std::map<std::string, OfOffset> offsets_;
 };
@@ -153,10 +153,10 @@ struct UnloadedDeviation {
 UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts = nullptr);
 
 /// The mean over `places` of the offset at `X_MW`: the common shift of a path that the errors and the weights
-/// of the machine cause. Up to the first place that the machine does not reach; nothing if it does not reach
-/// the first one.
-std::optional<Vector3> common_shift(const Model& model, const ToolModels& tools, const Pose& X_MW,
-                                    std::span<const PathPlace> places, const StartTables* starts = nullptr);
+/// of the machine cause: of that with [tool], with which it touches. Up to the first place that the machine
+/// does not reach; nothing if it does not reach the first one.
+std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
+                                    const StartTables* starts = nullptr);
 
 // Why a target is outside the travel of an actuator, in words.
 

@@ -57,6 +57,9 @@ std::vector<Setting> read_project(std::string_view text, const std::string& file
 /// that is not UTF-8: ErrorKind::machine_or_force at the place of a file's, else ErrorKind::usage.
 std::string to_project_text(const std::vector<Setting>& settings);
 
+/// A key of TOML: in quotation marks where it needs them.
+std::string toml_key(const std::string& name);
+
 /// The nearest `counterflex.toml` in the folder of `program` or above it; of the working directory where
 /// `program` is empty or "-". The path is relative to the working directory unless that is longer. Folders of
 /// that name are ignored, and so is the file that standard output is written to: the shell has emptied

@@ -9,6 +9,7 @@
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {
@@ -97,8 +98,8 @@ WorkFrame place_offset(const Machine& machine, const Model& model, const std::st
         ErrorKind::machine_or_force, {machine_file},
         fmt::format(
             "no [work.{0}], which the program {1}; the offsets are {2}. Add [work.{0}], or give --work "
-            "{0}=X,Y,Z/DATUM",
-            name, selected.empty() ? "starts with" : "selects", names(machine.work)));
+            "'{3}=X,Y,Z/DATUM'",
+            toml_key(name), selected.empty() ? "starts with" : "selects", names(machine.work), name));
   WorkFrame frame{name, found->second.X_MW};
   if (const auto& touched = found->second.datum.touched_at) {
     frame.touched = {.p_MT = frame.X_MW * *touched};
@@ -191,8 +192,8 @@ std::string offset_name(const Overview& program, const ProgramFrame& frame) {
   return power_on_offset;
 }
 
-void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
-                       const Overview& program, std::vector<WorkFrame>& frames) {
+void add_common_shifts(const Machine& machine, const Model& model, const StartTables& starts,
+                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
   std::map<std::string, std::optional<Vector3>> shifts;  // by offset, for all its frames
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -202,8 +203,8 @@ void add_common_shifts(const Machine& machine, const RunModels& models, const Pa
     const std::string& selected = program.frames[i].work_offset;
     const auto [known, is_new] = shifts.try_emplace(selected);
     if (is_new)
-      known->second = common_shift(models.model, models.tools, pose_of_offset(frames[i], program.frames[i]),
-                                   places.of(selected), models.starts);
+      known->second =
+          common_shift(model, pose_of_offset(frames[i], program.frames[i]), places.of(selected), &starts);
     frames[i].common_shift = known->second;
   }
 }

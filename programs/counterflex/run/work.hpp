@@ -40,15 +40,8 @@ Pose pose_of_offset(const WorkFrame& frame, const ProgramFrame& in_program);
 /// program selects none.
 std::string offset_name(const Overview& program, const ProgramFrame& frame);
 
-/// The machine of a run with its tools, and where solutions start.
-struct RunModels {
-  const Model& model;
-  const ToolModels& tools;
-  const StartTables* starts;
-};
-
 /// Computes the common shift of the frames in use without a datum. `places` are those of the program.
-void add_common_shifts(const Machine& machine, const RunModels& models, const PathPlaces& places,
-                       const Overview& program, std::vector<WorkFrame>& frames);
+void add_common_shifts(const Machine& machine, const Model& model, const StartTables& starts,
+                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex::cli

@@ -39,6 +39,17 @@ TEST_CASE("places are at equal distances along the feed moves of an offset, at m
   CHECK(places.of("G59").empty());
 }
 
+TEST_CASE("holes of cycles have places, from the height where the feed begins to the bottom") {
+  const PathPlaces places = places_of("G21 G90 G54\nG0 X0 Y0 Z5\nG81 X10 Y20 Z-10 R2\nX30\nG80\nM30\n");
+  const auto holes = places.of("G54");
+  REQUIRE(holes.size() >= 32);
+  CHECK(holes.front().p_mm == Vector3(10, 20, 2));
+  std::size_t in_second = 0;
+  for (const PathPlace& place : holes) in_second += place.p_mm.x() == 30;
+  CHECK(in_second * 2 >= holes.size() - 1);
+  CHECK(holes.back().p_mm.z() < -9);
+}
+
 TEST_CASE("places do not depend on how the program is cut into windows") {
   std::string text = "G21 G90 G54\nG0 X0 Y0 Z0\nG1 F600\n";
   for (int i = 1; i < 400; ++i) text += fmt::format("G1 X{} Y{}\n", (i * 7) % 90, (i * 5) % 40);
@@ -62,7 +73,7 @@ TEST_CASE("the common shift is the mean deviation of the unloaded machine along 
   const std::string text = "G21 G90\nG0 X20. Y-40. Z10.\nG1 X60. F300\nG1 Y40.\nM30\n";
   const Shop shop({.machine = machine, .text = text});
   const PathPlaces places = places_of(text);
-  const auto shift = common_shift(shop.model, {}, Pose{}, places.of(""));
+  const auto shift = common_shift(shop.model, Pose{}, places.of(""));
   REQUIRE(shift);
   Vector3 sum = Vector3::Zero();
   for (const PathPlace& place : places.of("")) {
@@ -79,7 +90,7 @@ TEST_CASE(
   const Machine machine = load_machine(orthoglide_b);
   const std::string text = "G21 G90\nG0 X-20. Y-40. Z10.\nG1 X20. F300\nM30\n";
   const Shop plain({.machine = machine, .text = text});
-  const Vector3 shift = *common_shift(plain.model, {}, Pose{}, places_of(text).of(""));
+  const Vector3 shift = *common_shift(plain.model, Pose{}, places_of(text).of(""));
   const Vector3 middle = Vector3(0, -40, 10) * mm;
   const Shop touched(
       {.machine = machine, .text = text, .datum_shift = cold_tip(plain, middle, Vector6::Zero()) - middle});
@@ -99,14 +110,14 @@ TEST_CASE("a path that the machine does not reach has no common shift") {
   const Shop shop({.machine = load_machine(orthoglide_b), .text = "G21 G90\nM30\n"});
   const PathPlaces places = places_of("G21 G90\nG0 X9000. Y0. Z0.\nG1 X9001. F300\nM30\n");
   REQUIRE_FALSE(places.of("").empty());
-  CHECK_FALSE(common_shift(shop.model, {}, Pose{}, places.of("")));
+  CHECK_FALSE(common_shift(shop.model, Pose{}, places.of("")));
 }
 
 TEST_CASE("the common shift is that of the places before the first one out of reach") {
   const Shop shop({.machine = load_machine(orthoglide_b), .text = "G21 G90\nM30\n"});
-  const std::vector<PathPlace> places{{{10, 0, 0}, 0}, {{0, 20, 0}, 0}, {{9000, 0, 0}, 0}, {{0, 0, 30}, 0}};
-  const auto reached = common_shift(shop.model, {}, Pose{}, std::span(places).first(2));
-  const auto all = common_shift(shop.model, {}, Pose{}, places);
+  const std::vector<PathPlace> places{{{10, 0, 0}}, {{0, 20, 0}}, {{9000, 0, 0}}, {{0, 0, 30}}};
+  const auto reached = common_shift(shop.model, Pose{}, std::span(places).first(2));
+  const auto all = common_shift(shop.model, Pose{}, places);
   REQUIRE(reached);
   REQUIRE(all);
   CHECK(*all == *reached);
