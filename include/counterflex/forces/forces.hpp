@@ -93,6 +93,7 @@ struct ForceSource {
   double scale = 1.0;
   /// Z of program coordinates: feed moves wholly above it carry no force.
   std::optional<double> air_above_mm{};
+  bool is_shared = false;  ///< by several programs: rules may name tools that a program lacks
 };
 
 /// Whether the wrenches act at the platform's reference point instead of the tip: all that are not zero do.

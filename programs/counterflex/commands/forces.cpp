@@ -49,6 +49,12 @@ void warn_of_bare_run(const BareRun& run, const Options& options, Console& conso
                     "of the program");
   if (const auto cycles = remark_of_cycles(program, source, options.command))
     console.warning(program.file, cycles->line, cycles->what);
+  if (options.output && source.scale != 1)
+    console.warning(
+        program.file, 0,
+        fmt::format("the profile has the forces times --load-scale {}; a run that reads it with a "
+                    "load scale multiplies them again",
+                    source.scale));
 }
 
 BareRun prepare_bare_run(const Options& options, Console& console) {

@@ -254,6 +254,7 @@ ForceInput read_force_input(const Options& options) {
   ForceSource& source = input.source;
   source.blend = options.blend;
   source.scale = options.load_scale;
+  source.is_shared = options.shares_forces;
   source.air_above_mm = options.air_above_mm;
   for (const std::string& path : options.forces) {
     const std::string role =

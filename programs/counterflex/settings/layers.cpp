@@ -12,13 +12,14 @@
 namespace counterflex::cli {
 namespace {
 
-/// Pairs of options for the same setting.
-constexpr std::array<std::array<std::string_view, 2>, 2> alternatives{
-    {{"forces", "force"}, {"tool-table", "tool-length"}}};
+/// The second option of each pair replaces the first one in later layers. A length of a tool does not replace
+/// a table: it is one of many.
+constexpr std::array<std::array<std::string_view, 2>, 3> replaced{
+    {{"forces", "force"}, {"force", "forces"}, {"tool-length", "tool-table"}}};
 
-std::string_view alternative_of(std::string_view option) {
-  for (const auto& pair : alternatives)
-    if (pair[0] == option || pair[1] == option) return pair[pair[0] == option ? 1 : 0];
+std::string_view replacing(std::string_view option) {
+  for (const auto& pair : replaced)
+    if (pair[0] == option) return pair[1];
   return option;
 }
 
@@ -31,7 +32,7 @@ const Setting* said_in(const std::vector<Setting>& layer, std::string_view optio
 const Setting* strongest(const Layers& layers, std::string_view option) {
   for (const std::vector<Setting>& layer : layers) {
     const Setting* setting = said_in(layer, option);
-    if (setting != nullptr || said_in(layer, alternative_of(option)) != nullptr) return setting;
+    if (setting != nullptr || said_in(layer, replacing(option)) != nullptr) return setting;
   }
   return nullptr;
 }
@@ -53,6 +54,8 @@ Options with_settings(Options options, const Layers& layers) {
   const std::vector<Setting> settings = effective_settings(options.command, layers);
   for (const Setting& setting : settings) {
     apply_setting(setting, options);
+    if (setting.option == "force" || setting.option == "forces")
+      options.shares_forces = setting.origin == Origin::file;
     remark_on_name(setting, options);
   }
   name_outputs(options, settings);

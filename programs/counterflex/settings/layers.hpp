@@ -13,8 +13,8 @@ using Layers = std::vector<std::vector<Setting>>;
 
 /// The settings of `command` in `layers`, in the order of the table of options. The first layer has the
 /// highest priority. Options are not merged: the first layer with an option replaces all its values in later
-/// layers. `forces` and `force` count as one option here, and so do tool tables and tool lengths: `--force`
-/// replaces the `forces` of a project file.
+/// layers. `forces` and `force` count as one option here: `--force` replaces the `forces` of a project file.
+/// A tool table also replaces tool lengths of later layers, but not the reverse.
 std::vector<Setting> effective_settings(Command command, const Layers& layers);
 
 /// Flags, environment and project file of one program, and the path of the project file, if any.

@@ -146,6 +146,7 @@ struct Options {
 
   std::vector<std::string> forces;     ///< files
   std::vector<ForceRule> force_rules;  ///< of --force
+  bool shares_forces = false;          ///< they are those of a file for several programs
   double load_scale = 1;
   double blend = 2e-3;  ///< m
   std::optional<double> air_above_mm;

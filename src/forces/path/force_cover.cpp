@@ -42,7 +42,7 @@ bool is_log(const ForceRule& rule) {
 struct ForceCover::State {
   enum class Stage { places_of_points, far_point, cover, done };
 
-  explicit State(ForceSource& s) : source(s), kinds(s.rules), in_use(s.rules) {
+  explicit State(ForceSource& s) : source(s), kinds(s.rules), in_use(s) {
     for (ForceRule& rule : source.rules)
       if (is_log(rule)) logs.emplace_back(std::get<ForceProfile>(rule.content));
     stage = !logs.empty() ? Stage::places_of_points : Stage::cover;
@@ -117,7 +117,7 @@ struct ForceCover::State {
   }
 
   void check() const {
-    kinds.refuse_unknown(source.rules);
+    kinds.refuse_unknown(source);
     for (const ProfileEnds& of_profile : profile_ends) of_profile.refuse_rows_beyond(ends);
     refuse_ranges_beyond();
     in_use.refuse_idle();

@@ -47,10 +47,10 @@ void ProgramKinds::add(const Program& window) {
   }
 }
 
-void ProgramKinds::refuse_unknown(const std::vector<ForceRule>& rules) const {
-  for (const ForceRule& rule : rules) {
+void ProgramKinds::refuse_unknown(const ForceSource& source) const {
+  for (const ForceRule& rule : source.rules) {
     const auto& tool = rule.selector.tool;
-    if (tool && !tools_.contains(*tool))
+    if (tool && !tools_.contains(*tool) && !(source.is_shared && rank(rule) == ForceRank::tool))
       fail_rule(rule, fmt::format("unknown tool T{}: the program uses {}", *tool, known_tools()));
     const auto is_rule = [&](const auto& unseen) { return unseen.first == &rule; };
     if (std::any_of(unseen_.begin(), unseen_.end(), is_rule))

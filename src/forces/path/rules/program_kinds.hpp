@@ -17,7 +17,7 @@ class ProgramKinds {
   void add(const Program& window);
 
   /// Throws `InputError` at a rule for a tool or an operation that the program does not have.
-  void refuse_unknown(const std::vector<ForceRule>& rules) const;
+  void refuse_unknown(const ForceSource& source) const;
 
  private:
   void see(const std::string& operation);

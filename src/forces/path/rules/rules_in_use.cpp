@@ -8,11 +8,12 @@
 
 namespace counterflex {
 
-RulesInUse::RulesInUse(const std::vector<ForceRule>& rules) : index_(rules), rules_(rules) {
-  for (const ForceRule& rule : rules) {
+RulesInUse::RulesInUse(const ForceSource& source) : index_(source.rules), rules_(source.rules) {
+  for (const ForceRule& rule : rules_) {
     const bool selects =
         rank(rule) != ForceRank::program && !std::holds_alternative<ForceProfile>(rule.content);
-    idle_.push_back(selects && !is_zero(rule));
+    const bool may_be_idle = source.is_shared && rank(rule) == ForceRank::tool;
+    idle_.push_back(selects && !may_be_idle && !is_zero(rule));
   }
   idle_count_ = static_cast<std::size_t>(std::count(idle_.begin(), idle_.end(), true));
 }

@@ -11,11 +11,12 @@
 namespace counterflex {
 
 /// A rule without a matching feed move is an error: its moves would get another force. Profiles, rules for
-/// the whole program and zero forces are not checked.
+/// the whole program and zero forces are not checked. Where several programs share the rules, a tool may be
+/// that of another program.
 class RulesInUse {
  public:
   /// Keeps a reference to the rules.
-  explicit RulesInUse(const std::vector<ForceRule>& rules);
+  explicit RulesInUse(const ForceSource& source);
 
   void add(const Program& window, const Toolpath& path);
 
