@@ -11,6 +11,7 @@
 #include "process/standard_output.hpp"
 #include "run/outputs.hpp"
 #include "run/sanity.hpp"
+#include "settings/layers.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -34,11 +35,29 @@ void refuse_machine_options(const Options& options) {
   check_drawing_output(options);
 }
 
-Checked check_file(const std::string& path, const Options& options, const MachineInput* machine,
-                   Console& console) {
+/// The options with which a program is checked: those of the project file beside or above it, too.
+Options options_at(const Options& options, const std::string& program, Console& console) {
+  if (options.sources.config) return options;
+  const ProgramLayers found = layers_of(options.sources, program);
+  Options own = options_of(Command::check, found.layers, program);
+  own.project_file = found.project_file;
+  if (!own.project_file.empty()) console.detail("project file " + own.project_file);
+  return own;
+}
+
+Checked check_placed(const std::string& program, const Options& options, Console& console) {
+  const Options own = options_at(options, program, console);
+  std::optional<MachineInput> machine;
+  if (!own.machine.empty()) {
+    machine = read_machine_input(own);
+    take_lengths(read_tool_lengths(own, &machine->machine), machine->machine);
+  }
+  return check_program(program, own, machine ? &*machine : nullptr, console);
+}
+
+Checked check_file(const std::string& path, const Options& options, Console& console) {
   try {
-    return is_machine(path) ? check_machine(path, options, console)
-                            : check_program(path, options, machine, console);
+    return is_machine(path) ? check_machine(path, options, console) : check_placed(path, options, console);
   } catch (const InputError& error) {
     console.error(error.what());
     return {"", "", {{"file", path}, {"error", error.what()}}, error.kind()};
@@ -64,16 +83,11 @@ std::string row(std::string_view label, std::string_view text) {
 
 std::optional<ErrorKind> run_check(const Options& options, Console& console) {
   refuse_machine_options(options);
-  std::optional<MachineInput> machine;
-  if (!options.machine.empty()) {
-    machine = read_machine_input(options);
-    take_lengths(read_tool_lengths(options, &machine->machine), machine->machine);
-  }
   nlohmann::ordered_json files = nlohmann::ordered_json::array();
   std::optional<ErrorKind> first;
   std::string text;
   for (const std::string& path : options.check.files) {
-    Checked checked = check_file(path, options, machine ? &*machine : nullptr, console);
+    Checked checked = check_file(path, options, console);
     if (!first) first = checked.error_kind;
     if (!checked.text.empty())
       text += (text.empty() ? "" : "\n\n") + lines_without_controls(checked.text) + checked.sanity;

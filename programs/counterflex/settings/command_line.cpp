@@ -159,20 +159,19 @@ std::optional<ErrorKind> leave(const CLI::App& app, const CLI::ParseError& error
 std::string placing_program(const Options& options) {
   if (options.command == Command::watch)
     return (std::filesystem::path(options.watch.folder) / "any").generic_string();
+  if (options.command == Command::identify) return options.identify.program;
   if (options.command != Command::check) return options.program;
   const auto program = std::find_if(options.check.files.begin(), options.check.files.end(),
                                     [](const std::string& file) { return !file.ends_with(".toml"); });
   return program == options.check.files.end() ? options.check.files.front() : *program;
 }
 
-/// Whether settings besides flags are read. A broken project file must not prevent the check of machine
-/// files.
+/// Whether settings besides flags are read here. `check` reads those of each program beside it.
 bool reads_sources(const Options& options) {
   if (options.print_config || options.sources.config) return true;
-  if (options.command == Command::check) return !placing_program(options).ends_with(".toml");
-  return options.command != Command::compare && options.command != Command::batch &&
-         options.command != Command::import && options.command != Command::create &&
-         !options.forces_table.materials;
+  return options.command != Command::check && options.command != Command::compare &&
+         options.command != Command::batch && options.command != Command::import &&
+         options.command != Command::create && !options.forces_table.materials;
 }
 
 std::vector<SettingRemark> remarks_on_environment() {
