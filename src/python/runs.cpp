@@ -184,7 +184,7 @@ py::tuple identify(const LoadedMachine& machine, const std::vector<std::string>&
     const std::string& path = machine.input.file.path;
     identified = machine.text.empty()
                      ? load(found.machine, machine.input.file, "")
-                     : load_text(with_identified(machine.text, path, found, cli::names_of(files)), path);
+                     : load_text(cli::identified_text(machine.text, path, found, files), path);
   }
   const py::object text =
       machine.text.empty() ? py::object(py::none()) : py::object(py::bytes(identified->text));

@@ -21,17 +21,8 @@
 namespace counterflex::cli {
 namespace {
 
-constexpr std::string_view mark = "# Identified by counterflex";
 constexpr std::string_view report_mark = "counterflex-identification 1",
                            page_mark = "counterflex identification";
-
-/// The text without a byte order mark, and without a first line that an earlier run wrote.
-std::string_view without_mark(std::string_view text) {
-  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
-  if (!text.starts_with(mark)) return text;
-  const std::size_t end = text.find('\n');
-  return end == std::string_view::npos ? "" : text.substr(end + 1);
-}
 
 /// Empty where nothing is written.
 struct OutputFiles {
@@ -63,9 +54,8 @@ void write_files(const Options& options, const MachineInput& machine, const Iden
   std::optional<FileWriter> machine_file, json_file, page_file;
   if (!files.machine.empty()) {
     machine_file.emplace(files.machine);
-    machine_file->write(fmt::format("{} {} from {}\n", mark, version, data));
     machine_file->write(
-        with_identified(without_mark(machine.text), shown_name(options.machine), found, data));
+        identified_text(machine.text, shown_name(options.machine), found, options.identify.data));
   }
   if (!files.report.empty()) {
     json_file.emplace(files.report);

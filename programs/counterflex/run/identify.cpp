@@ -10,6 +10,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/identification.hpp"
 #include "process/read_input.hpp"
+#include "process/version.hpp"
 #include "run/program_places.hpp"
 
 namespace counterflex::cli {
@@ -74,6 +75,15 @@ IdentifyOptions identify_options(const Options& options) {
 }
 
 }  // namespace
+
+std::string identified_text(std::string_view text, const std::string& file, const Identification& found,
+                            const std::vector<std::string>& measurements) {
+  constexpr std::string_view mark = "# Identified by counterflex";
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
+  if (text.starts_with(mark)) text.remove_prefix(std::min(text.find('\n'), text.size() - 1) + 1);
+  const std::string files = names_of(measurements);
+  return fmt::format("{} {} from {}\n{}", mark, version, files, with_identified(text, file, found, files));
+}
 
 std::string names_of(const std::vector<std::string>& files) {
   std::string text;
