@@ -79,7 +79,7 @@ std::optional<std::string> work_offset_name(std::string_view text) {
   const std::string group = name.substr(0, p);
   const bool known = (group == "G54.1" && within(page, 1, 300)) || (group == "G154" && within(page, 1, 99));
   if (!known) return std::nullopt;
-  return group + " P" + std::to_string(*page);
+  return "G54.1 P" + std::to_string(*page);  // as the reader of programs names them
 }
 
 }  // namespace counterflex

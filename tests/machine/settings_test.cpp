@@ -92,7 +92,7 @@ TEST_CASE("work offsets have the names by which programs select them, in any spe
       "[work.g55]\n[work.\"G54.1P007\"]\n[work.\"g154 p99\"]\n[work.G505]\n"
       "[work.\"uf 05\"]\n[work.\"base_data[3]\"]\n[work.\"user 3\"]\n[work.ROBOT]\n[work.w5]\n[work.FP1]\n");
   for (const char* name :
-       {"G55", "G54.1 P7", "G154 P99", "G505", "UF 5", "BASE_DATA[3]", "USER 3", "ROBOT", "w5", "FP1"}) {
+       {"G55", "G54.1 P7", "G54.1 P99", "G505", "UF 5", "BASE_DATA[3]", "USER 3", "ROBOT", "w5", "FP1"}) {
     CAPTURE(name);
     CHECK(machine.work.count(name) == 1);
   }

@@ -60,7 +60,7 @@ TEST_CASE(
   CHECK(moved("linuxcnc", "G59.2").words.at(0).starts_with("G10 L2 P8 X"));
   CHECK(moved("fanuc", "G55").words.at(0) == "G90 G10 L2 P2 X149.959 Y100.012");
   CHECK(moved("fanuc", "G54.1 P3").words.at(0) == "G90 G10 L20 P3 X149.959 Y100.012");
-  CHECK(moved("haas", "G154 P12").words.at(0) == "G90 G10 L20 P12 X149.959 Y100.012");
+  CHECK(moved("haas", "G54.1 P12").words.at(0) == "G90 G10 L20 P12 X149.959 Y100.012");
   CHECK(moved("grbl", "G54").words.at(0) == "G10 L2 P1 X149.959 Y100.012");
   CHECK(moved("siemens", "G54").words ==
         std::vector<std::string>{"$P_UIFR[1,X,TR]=149.9587", "$P_UIFR[1,Y,TR]=100.0119"});
@@ -97,7 +97,7 @@ TEST_CASE("the reader of each G-code dialect reads the offset from the words") {
 
 TEST_CASE("the reader of Fanuc and Haas reads the further offsets from the words") {
   for (const auto& row :
-       {std::array{"fanuc", "G54.1 P3", "G54.1 P3"}, std::array{"haas", "G154 P12", "G154 P12"},
+       {std::array{"fanuc", "G54.1 P3", "G54.1 P3"}, std::array{"haas", "G54.1 P12", "G154 P12"},
         std::array{"haas", "G54.1 P3", "G112"}}) {
     const std::string dialect = row[0], name = row[1], code = row[2];
     CAPTURE(dialect);

@@ -67,14 +67,16 @@ void share_time(const Move& move, std::vector<PlannedStep>& steps) {
       piece.feed_per_min = move.feed_per_min * whole / part;
 }
 
-bool is_length(const Word& word, const Move& move) {
-  return is_axis(word) || ((move.arc || move.cycle) && is_centre(word));
+bool is_length(const Word& word, const Original& o) {
+  const bool counts = word.letter == 'K' && o.move.cycle && o.dialect.k_repeats_holes &&
+                      find_word(o.block, 'I') == nullptr && find_word(o.block, 'J') == nullptr;
+  return is_axis(word) || ((o.move.arc || o.move.cycle) && is_centre(word) && !counts);
 }
 
 void check_integer_words(const Original& o) {
   if (!integers_may_be_ambiguous(o.program, o.dialect)) return;
   for (const Word& word : o.block.words)
-    if (is_length(word, o.move) && word.literal && !word.point && word.value != 0)
+    if (is_length(word, o) && word.literal && !word.point && word.value != 0)
       refuse(o.program.file, o.block, word.span.begin,
              integer_question(fmt::format("{}{}", word.letter, word.value)));
 }

@@ -62,8 +62,7 @@ std::optional<int> number_behind(std::string_view name, std::string_view prefix)
 
 // "L2 P1": the address of an offset under G10. Empty: it has none.
 std::string g10_address(const std::string& name) {
-  for (const std::string_view page : {"G54.1 P", "G154 P"})
-    if (const auto p = number_behind(name, page)) return fmt::format("L20 P{}", *p);
+  if (const auto p = number_behind(name, "G54.1 P")) return fmt::format("L20 P{}", *p);
   if (const auto third = number_behind(name, "G59."); third && *third >= 1 && *third <= 3)
     return fmt::format("L2 P{}", 6 + *third);
   const auto g = number_behind(name, "G");

@@ -197,6 +197,12 @@ TEST_CASE("an ambiguous integer word in a block that must be rewritten is refuse
   CHECK(with_last_move("G21 G0 X5 Y0 Z1.\n", {.end_mm = {5, 0, 2}}) == "G21 G0 X5 Y0 Z2.\n");
 }
 
+TEST_CASE("K of a Fanuc's cycle is a count, not an ambiguous length") {
+  const std::string before = "O1\nG21 G90 G0 X0. Y0. Z5.\nG98 G81 X5. Y5. Z-5. R2. F100.\n";
+  const Program program = read_program(before + "Y9. K2\nG80\n", "p.nc", {});
+  CHECK(rewrite(program, shifted(program, {0, 0.25, 0}), {}).text.find("Y9.25 K2\n") != std::string::npos);
+}
+
 TEST_CASE("a block that would be longer than the control reads is refused") {
   const std::string comment(230, 'c');
   const std::string text = std::string(start) + "G1 X1. F100 (" + comment + ")\n";

@@ -7,6 +7,7 @@
 #include <span>
 
 #include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
@@ -36,7 +37,6 @@ constexpr auto apt_motionless = std::to_array<std::string_view>({"PARTNO",
                                                                  "DWELL",
                                                                  "TRNTYP",
                                                                  "SEQNO",
-                                                                 "PREFUN",
                                                                  "AUXFUN",
                                                                  "DISPLAY",
                                                                  "CLEARP",
@@ -155,6 +155,22 @@ void lose_position(AptReading& r) {
   r.robot.state.moved_by_machine = true;
 }
 
+/// The name by which the machine file or --work places a coordinate system: CSYS_NAME for CSYS/NAME, else
+/// CSYS_1, CSYS_2, ... by the order of their texts.
+std::string system_name(AptReading& r, const RobotLine& line, const AptStatement& statement) {
+  const std::string_view text = r.robot.program.text;
+  if (statement.parameters.size() == 1) {
+    const std::string name = apt_word(part(text, statement.parameters[0]));
+    if (!name.empty() && is_letter(name[0]) && std::ranges::all_of(name, is_identifier_character))
+      return "CSYS_" + name;
+  }
+  const std::string system = apt_word(part(text, line.code));
+  const auto known = std::ranges::find(r.systems, system);
+  const auto number = known - r.systems.begin() + 1;
+  if (known == r.systems.end()) r.systems.push_back(system);
+  return fmt::format("CSYS_{}", number);
+}
+
 /// CSYS/ and MSYS/ state the coordinate system of the points after them: rows of a matrix with its origin, or
 /// the origin and two axes. Each other text is another system.
 void select_system(AptReading& r, const RobotLine& line, const AptStatement& statement) {
@@ -164,7 +180,7 @@ void select_system(AptReading& r, const RobotLine& line, const AptStatement& sta
   for (const Span parameter : statement.parameters) numbers.push_back(plain(r, parameter).value_or(2));
   const bool is_same = std::ranges::equal(numbers, same) || std::ranges::equal(numbers, same_axes);
   ProgramFrame frame = r.robot.program.frames[r.robot.state.frame];
-  frame.work_offset = is_same ? "" : apt_word(part(r.robot.program.text, line.code));
+  frame.work_offset = is_same ? "" : system_name(r, line, statement);
   enter_robot_frame(r.robot, frame);
 }
 

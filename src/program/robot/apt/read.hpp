@@ -22,6 +22,7 @@ struct AptReading {
   bool in_cutcom = false;             ///< CUTCOM/: the control shifts the points
   bool may_skip = false;              ///< OPSKIP/ON: the control may skip the statements
   std::optional<double> feed_per_turn_mm{};
+  std::vector<std::string> systems{};  ///< texts of the coordinate systems without a name, in their order
 };
 
 /// Reads the statement of `line`. Throws `InputError` with line and column.

@@ -336,11 +336,27 @@ TEST_CASE("TLAXIS/ states the axis of points without one, and the tool turns whe
   CHECK(frame_of(1).tool_axis == Vector3(0, 0, 1));
   CHECK(frame_of(2).tool_axis == Vector3(0, 0, 1));
   CHECK(frame_of(3).tool_axis == Vector3(0, -0.6, 0.8));
-  CHECK(frame_of(3).work_offset == frame_of(2).work_offset);
+  CHECK(frame_of(2).work_offset == "CSYS_1");
+  CHECK(frame_of(3).work_offset == "CSYS_1");
   const Program turning = read_apt("UNITS/MM\nGOTO/0,0,0,0,0,1\nTLAXIS/0,-0.6,0.8\nGOTO/1,0,0\n");
   CHECK(!turning.moves[1].known_end[0]);
   CHECK(refusal_of_apt("UNITS/MM\nTLAXIS/NORMPS\n")
             .starts_with("job.cls:2:1: error: TLAXIS/ is not an axis of three plain numbers"));
+}
+
+TEST_CASE("coordinate systems have names that the machine file can place") {
+  const Program program = read_apt(
+      "UNITS/MM\nCSYS/1,0,0,5,0,1,0,0,0,0,1,0\nGOTO/0,0,0\nMSYS/WCS1\nGOTO/1,0,0\n"
+      "CSYS/1,0,0,7,0,1,0,0,0,0,1,0\nGOTO/2,0,0\nCSYS/1,0,0,5,0,1,0,0,0,0,1,0\nGOTO/3,0,0\n");
+  std::vector<std::string> names;
+  for (const Move& move : program.moves) names.push_back(program.frames[move.frame].work_offset);
+  CHECK(names == std::vector<std::string>{"CSYS_1", "CSYS_WCS1", "CSYS_2", "CSYS_1"});
+}
+
+TEST_CASE("PREFUN/ may set any G code: what is behind it is not followed") {
+  const Program program = read_apt("UNITS/MM\nGOTO/0,0,0\nPREFUN/91\nGOTO/10,0,0\n");
+  CHECK(program.moves.size() == 3);
+  CHECK_FALSE(program.moves[2].known_start[0]);
 }
 
 TEST_CASE("a remark of Creo continues in the lines of numbers behind a dollar sign") {
@@ -393,7 +409,7 @@ TEST_CASE("what APT does not give as plain points is not followed, or refused wi
         std::vector<bool>{false, true, true, true, false, true, false, true, false, false, false, false});
   CHECK(known_start ==
         std::vector<bool>{false, true, false, false, false, true, false, true, false, false, true, false});
-  CHECK(program.frames[program.moves.back().frame].work_offset == "MSYS/1,0,0,1,0,0,0,1,0");
+  CHECK(program.frames[program.moves.back().frame].work_offset == "CSYS_1");
   CHECK(unchanged(program) == program.text);
   CHECK(
       refusal_of_apt("UNITS/MM\nTRACUT/M1\n").starts_with("job.cls:2:1: error: TRACUT/ changes the places"));
