@@ -47,8 +47,8 @@ SanityCheck check_tool_lengths(const std::map<long, double>& lengths_mm, const s
 
 SanityCheck check_work_offset(const std::vector<std::string>& selected, bool known) {
   std::vector<std::string> names;
-  for (const std::string& name : selected)
-    if (!name.empty()) names.push_back(name);
+  for (const std::string& name : selected)  // of frames: shifts of one offset are several
+    if (!name.empty() && std::ranges::find(names, name) == names.end()) names.push_back(name);
   if (known) {
     if (selected.empty()) return {"work offset", SanityState::ok, "the program gives its base"};
     if (names.empty()) return {"work offset", SanityState::ok, "G54, with which controls start"};

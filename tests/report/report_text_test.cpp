@@ -40,6 +40,9 @@ TEST_CASE("the details show before and after, and call the remainder a model res
   CHECK(contains(text, "  largest                                 0.5000        0.0050\n"));
   CHECK(contains(text, "model residual: what the model leaves, not the accuracy of the part"));
   CHECK(contains(text, "100 times smaller"));
+  RunReport exact = compensated(run, small_compensation());
+  exact.after->max_mm = 1e-15;
+  CHECK_FALSE(contains(details_text(exact, false), "times smaller"));
   CHECK(contains(text,
                  "  load: cutting forces alone              0.0000      0.1500      0.2000      0.2500\n"));
   CHECK(contains(

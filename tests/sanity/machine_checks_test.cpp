@@ -138,6 +138,7 @@ TEST_CASE("a selected offset without a pose is doubtful") {
   CHECK(unknown.state == SanityState::doubtful);
   CHECK(contains(unknown.text, "--work G55="));
   CHECK(contains(unknown.text, "--work machine"));
+  CHECK(contains(check_work_offset({"G54", "G54", "G55", "G54"}, false).text, "selects G54, G55, but"));
 }
 
 TEST_CASE("sizes that hardly any machine has are doubtful, each by its own name") {

@@ -84,14 +84,23 @@ Failure status_failure(const Job& job, Status status, const Segment& segment, co
       segment.line);
 }
 
+namespace {
+
+// To four digits: what exceeds a limit is also shown as larger.
+double rounded_up(double value) {
+  return std::ceil(value * 1e4) / 1e4;
+}
+
+}  // namespace
+
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
   const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
   if (const auto word = ambiguous_integer_word(job.program, line))
     return Failure{ErrorKind::program_text, word->line, word->what};
   return Failure{ErrorKind::limit, line,
-                 fmt::format("the correction would be {:.3f} mm, more than the limit of {:.3f} mm", size / mm,
-                             job.options.max_correction / mm)};
+                 fmt::format("the correction would be {:.4f} mm, more than the limit of {:.6g} mm",
+                             rounded_up(size / mm), job.options.max_correction / mm)};
 }
 
 std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, int line) {
@@ -99,8 +108,8 @@ std::optional<Failure> turn_limit_failure(const Job& job, const Vector3& turn, i
   if (size <= job.options.max_turn) return std::nullopt;
   return Failure{
       ErrorKind::limit, line,
-      fmt::format("the correction would turn the tool by {:.3f} deg, more than the limit of {:.3f} deg",
-                  size / deg, job.options.max_turn / deg)};
+      fmt::format("the correction would turn the tool by {:.4f} deg, more than the limit of {:.6g} deg",
+                  rounded_up(size / deg), job.options.max_turn / deg)};
 }
 
 Vector3 controlled_axes(const Mechanism& mechanism) {

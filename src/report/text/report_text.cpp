@@ -71,9 +71,8 @@ std::string axis_row(const char* label, const RunReport& report, int axis) {
 }
 
 std::string factor(const RunReport& report) {
-  const double before = report.before->max_mm, after = report.after->max_mm;
-  if (after <= 0 || before < 10 * after) return "";
-  return fmt::format("  The largest deviation becomes {} times smaller.\n", format_fixed(before / after, 0));
+  const std::string times = times_smaller(report.before->max_mm, report.after->max_mm);
+  return times.empty() ? "" : fmt::format("  The largest deviation becomes {} smaller.\n", times);
 }
 
 std::string band_rows(const RunReport& report) {

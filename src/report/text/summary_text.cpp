@@ -17,7 +17,6 @@ namespace {
 
 constexpr std::size_t label_width = 14;
 constexpr std::size_t shown_files = 4;
-constexpr double least_shown_mm = 1e-4;  // smaller residuals are shown as zero or by one digit
 
 /// A labelled paragraph, cut after two lines.
 std::string item(std::string_view label, const std::string& text) {
@@ -60,8 +59,8 @@ std::string after_text(const RunReport& report) {
   const double before = report.before->max_mm, after = report.after->max_mm;
   std::string text =
       fmt::format("{} mm{}, line {}", mm4(after), band_text(*report.after), report.after->max_line);
-  if (after >= least_shown_mm && before >= 10 * after)
-    text += fmt::format(" ({} times smaller)", format_fixed(before / after, 0));
+  if (const std::string times = times_smaller(before, after); !times.empty())
+    text += fmt::format(" ({} smaller)", times);
   return item("after", text + fmt::format("; by the model, tolerance {} mm", mm4(report.tolerance_mm)));
 }
 

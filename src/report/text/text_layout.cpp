@@ -45,4 +45,10 @@ std::string before_after_row(const std::string& label, const std::string& before
   return text + "\n";
 }
 
+std::string times_smaller(double before_mm, double after_mm) {
+  constexpr double least_shown_mm = 1e-4;  // smaller ones are shown as zero or by one digit
+  if (after_mm < least_shown_mm || before_mm < 10 * after_mm) return "";
+  return fmt::format("{} times", format_fixed(before_mm / after_mm, 0));
+}
+
 }  // namespace counterflex

@@ -32,6 +32,9 @@ inline std::string line_break() {
   return std::string(1, '\n');
 }
 
+/// "37 times"; empty where that is below ten times, or `after` below what is shown of it.
+std::string times_smaller(double before_mm, double after_mm);
+
 /// Millimetres in summaries.
 inline std::string mm4(double value) {
   return format_fixed(value, 4);
