@@ -112,7 +112,7 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
 // What touching off with the machine finds: where the tip of the unloaded machine is, relative to where
 // it should. Lengths in m but for program coordinates, which are in mm.
 
-/// A place on a feed move.
+/// A place on a feed move or in a hole.
 struct PathPlace {
   Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset
   std::optional<Matrix3> R{};      ///< orientation there, where the program gives one

@@ -415,7 +415,7 @@ std::string stiffness_phrase(const Tool& tool);
 
 // Names of work offsets.
 
-/// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3", "G54.1 P12", "G505", "UF 5",
+/// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3" also for "G154 P3", "G505", "UF 5",
 /// "BASE_DATA[1]", "USER 3"), of one that may be in lower case, lack the blank before P or have zeros before
 /// the number. The name of a robot's frame ("table", a work object or a variable) as it is. None for other
 /// text.

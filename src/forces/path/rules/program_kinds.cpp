@@ -50,7 +50,7 @@ void ProgramKinds::add(const Program& window) {
 void ProgramKinds::refuse_unknown(const ForceSource& source) const {
   for (const ForceRule& rule : source.rules) {
     const auto& tool = rule.selector.tool;
-    if (tool && !tools_.contains(*tool) && !(source.is_shared && rank(rule) == ForceRank::tool))
+    if (tool && !tools_.contains(*tool) && !may_be_for_another_program(rule, source))
       fail_rule(rule, fmt::format("unknown tool T{}: the program uses {}", *tool, known_tools()));
     const auto is_rule = [&](const auto& unseen) { return unseen.first == &rule; };
     if (std::any_of(unseen_.begin(), unseen_.end(), is_rule))

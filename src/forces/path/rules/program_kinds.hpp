@@ -9,6 +9,11 @@
 
 namespace counterflex {
 
+/// Whether a rule may be for the tool of another program that shares it.
+inline bool may_be_for_another_program(const ForceRule& rule, const ForceSource& source) {
+  return source.is_shared && rank(rule) == ForceRank::tool;
+}
+
 class ProgramKinds {
  public:
   /// Keeps a reference to the rules.
@@ -16,7 +21,8 @@ class ProgramKinds {
 
   void add(const Program& window);
 
-  /// Throws `InputError` at a rule for a tool or an operation that the program does not have.
+  /// Throws `InputError` at a rule for a tool or an operation that the program does not have, unless it may
+  /// be for another program.
   void refuse_unknown(const ForceSource& source) const;
 
  private:

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 
+#include "forces/path/rules/program_kinds.hpp"
 #include "forces/read/selector_text.hpp"
 
 namespace counterflex {
@@ -12,8 +13,7 @@ RulesInUse::RulesInUse(const ForceSource& source) : index_(source.rules), rules_
   for (const ForceRule& rule : rules_) {
     const bool selects =
         rank(rule) != ForceRank::program && !std::holds_alternative<ForceProfile>(rule.content);
-    const bool may_be_idle = source.is_shared && rank(rule) == ForceRank::tool;
-    idle_.push_back(selects && !may_be_idle && !is_zero(rule));
+    idle_.push_back(selects && !may_be_for_another_program(rule, source) && !is_zero(rule));
   }
   idle_count_ = static_cast<std::size_t>(std::count(idle_.begin(), idle_.end(), true));
 }
