@@ -167,7 +167,8 @@ class Identifying(unittest.TestCase):
         with tempfile.TemporaryDirectory() as folder:
             data = pathlib.Path(folder, 'laser.csv')
             data.write_text('\n'.join(rows) + '\n')
-            found = counterflex.identify(machine, data)
+            earlier = '# Identified by counterflex 0.0.1 from other.csv\n' + AXIS.lstrip()
+            found = counterflex.identify(counterflex.Machine.from_text(earlier, 'axis.toml'), data)
             with self.assertRaises(counterflex.InputError) as raised:
                 counterflex.identify(machine, [pathlib.Path(folder, 'none.csv')])
             self.assertTrue(raised.exception.file.endswith('none.csv'))
@@ -178,6 +179,8 @@ class Identifying(unittest.TestCase):
         self.assertEqual(found.data['schema'], 'counterflex-identification 1')
         again = counterflex.Machine.from_text(found.text)
         self.assertEqual(again.parameters, found.machine.parameters)
+        self.assertRegex(found.text, r'\A# Identified by counterflex \S+ from laser\.csv\n')
+        self.assertEqual(found.text.count('# Identified by'), 1)
         poses = machine.poses([(0.2, 0, 0)])
         self.assertAlmostEqual(1e6 * found.machine.solve(poses).deviation[0, 0], values[2], places=6)
         self.assertEqual(machine.parameters['X.error[200]_um'], 0)
