@@ -104,12 +104,15 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
   const KlartextWord* off = line ? find_word(r.words, "R") : nullptr;
   const bool on = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
   const bool is_beside = state.contour && state.beside_contour;
+  const bool changes_side = on && is_beside && side_of(r.words) != state.cutter_side;
   if (state.after_contour && !is_along_z(move)) state.after_contour = false;
   if (on && !state.contour) begin_contour(r);
   if (on) state.contour = true, state.after_contour = state.beside_contour = false;
   if (on) state.cutter_side = side_of(r.words);
   const bool divides = move.arc && move.may_split && state.contour && state.beside_contour;
   const bool leaves = off != nullptr && state.contour;
+  // Pieces of a line on which the compensation changes would have it in one of them alone.
+  if (state.contour && (!is_beside || changes_side || leaves)) move.stays_whole = true;
   if (is_beside && state.contour && !leaves && !is_along_z(move)) move.cutter_side = state.cutter_side;
   if (state.contour || state.after_contour) join_contour(move, state.groups);
   if (divides) move.may_split = true;

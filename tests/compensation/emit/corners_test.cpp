@@ -90,3 +90,27 @@ TEST_CASE("a corner whose side changes its height, or is too short, is refused")
   shorter.replace(x, 4, "X+78");
   CHECK(refusal_of(shop, shorter).find("corners lie in one plane") != std::string::npos);
 }
+
+TEST_CASE("a line on which the compensation of the cutter begins or ends is not divided beside a corner") {
+  struct Trial {
+    std::string text, line, divided;
+    std::size_t cuts;  // the line on the other side of the corner may be divided
+  };
+  const std::string end = "G0 Z5.\nM30\n%\n",
+                    begin = "%\nO1\nG21 G90 G17 G54\nG0 X0. Y0. Z5.\nG1 Z-2. F500\n";
+  for (const Trial& trial :
+       {Trial{klartext("L X+80 RL F500\nRND R4\nL Y+60\nL X+0 R0\n"), "L X+80 RL F500",
+              "L X+40 F500\nL X+80 RL", 4},
+        Trial{klartext("L X+80 RL F500\nL Y+60\nRND R4\nL X+0 R0\n"), "L X+0 R0", "L X+40\nL X+0 R0", 3},
+        Trial{begin + "G41 D1\nX80. ,R4.\nY60.\nG40 X0.\n" + end, "X80. ,R4.", "X40.\nX80. ,R4.", 4},
+        Trial{begin + "G41 D1 X80.\nY60. ,R4.\nG40\nX0.\n" + end, "G40\nX0.", "G40\nX40.\nX0.", 3}}) {
+    CAPTURE(trial.text);
+    const Shop tilted = shop_of(trial.text);
+    CHECK(cuts_in(compensated(tilted).text).size() == trial.cuts);
+    const Shop straight({.machine = perfect_gantry(), .text = trial.text});
+    std::string text = compensated(straight).text;
+    CHECK(refusal_of(straight, text) == "");
+    text.replace(text.find(trial.line), trial.line.size(), trial.divided);
+    CHECK(refusal_of(straight, text) != "");
+  }
+}

@@ -43,6 +43,10 @@ bool may_divide(const Reading& r, const Move& move) {
 
 }  // namespace
 
+bool changes_compensation(const ModalState& state) {
+  return state.contour == Contour::taking_off || (state.contour == Contour::inside && !state.beside_contour);
+}
+
 bool is_along_z(const Move& move) {
   return !move.words[0] && !move.words[1] && !move.fixed[0] && !move.fixed[1] && !move.arc;
 }

@@ -8,6 +8,10 @@ namespace counterflex {
 /// belongs to it, so that a window can end inside a long run of them.
 inline constexpr std::ptrdiff_t most_moves_before_contour = 16;
 
+/// Whether the compensation begins or ends on the next move in the plane: pieces of it would have the
+/// compensation in one of them alone.
+bool changes_compensation(const ModalState& state);
+
 /// Whether a move is along Z only.
 bool is_along_z(const Move& move);
 

@@ -8,6 +8,7 @@
 
 #include "counterflex/geometry/curve.hpp"
 #include "program/expand/expand.hpp"
+#include "program/gcode/moves/contour.hpp"
 #include "program/gcode/words/modal_words.hpp"
 
 namespace counterflex {
@@ -81,7 +82,8 @@ void allow_changes(const Reading& r, Move& move) {
   move.may_split =
       feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_feed;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
-  move.stays_whole = rigid || !shares_feed || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW");
+  move.stays_whole = rigid || !shares_feed || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW") ||
+                     changes_compensation(r.state);
   move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
                   !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
 }
