@@ -96,7 +96,7 @@ void Emitter::emit_rigid(std::size_t m, Index s) {
   if (move.handling == Handling::held && !move.cycle) keep_standing_axes(move, edit);
   if (move.cycle) {
     edit.bottom_mm = move.cycle->bottom_mm + shift.z();
-    edit.retract_mm = move.cycle->retract_mm + shift.z();
+    edit.retract_mm = retract_mm(move, shift.z());
   }
   if (s && move.handling == Handling::group) {
     if (move.arc && group_motion_) divide_by_height(move, *s, edit);

@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "compensation/emit/emitter.hpp"
 #include "compensation/solve/failures.hpp"
@@ -78,6 +79,23 @@ void Emitter::emit_first_known(std::size_t m) {
   put(shifted(m, shift_mm(move, state_.correction)), in_part ? Extent::in_part : Extent::whole);
 }
 
+// R of a hole with its shift (program coordinates, mm). Where it is not below the tool in the original, so it
+// is in the text: the last hole may have left the tool higher than its own shift does.
+double Emitter::retract_mm(const Move& move, double shift) {
+  const CycleMove& cycle = *move.cycle;
+  const double planned = cycle.retract_mm + shift;
+  const bool is_chosen = cycle.retract_word && !move.relative && cycle.retract_mm >= move.start_mm.z() &&
+                         chooses_height_by_retract(job_.program, move);
+  if (!is_chosen) return planned;
+  const WriteOptions& options = job_.options.write;
+  const int decimals = options.decimals >= 0
+                           ? options.decimals
+                           : std::max(decimals_of(move, options).inserted, cycle.retract_word->decimals);
+  const double digit = mm_per(move.unit) / std::pow(10.0, decimals), rounding = 1e-6;
+  const double least = std::ceil(*before(move)[2] / digit - rounding) * digit;
+  return std::round(planned / digit) * digit < least ? least : planned;
+}
+
 // A hole is shifted by the correction at its bottom; the tool leaves it there, or at the height where it
 // began.
 void Emitter::emit_hole(std::size_t m) {
@@ -98,12 +116,12 @@ void Emitter::emit_hole(std::size_t m) {
     shift.z() = entered.z();
   }
   edit.bottom_mm = move.cycle->bottom_mm + shift.z();
-  edit.retract_mm = move.cycle->retract_mm + shift.z();
   edit.end_mm = move.end_mm + shift;
   const bool held_z = state_.holds[2];
   leave_far_pending_alone(move);
   hold(correction_of(move, shift));
   give_to_pending();
+  edit.retract_mm = retract_mm(move, shift.z());
   put(std::move(edit), extent);
   // The text determines where the cycle leaves the tool.
   if (state_.held[2]) shift.z() = *state_.held[2] - move.end_mm.z();

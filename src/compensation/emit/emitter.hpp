@@ -85,6 +85,7 @@ class Emitter {
   // emit_position.cpp
   void emit_first_known(std::size_t m);
   void emit_hole(std::size_t m);
+  double retract_mm(const Move& move, double shift);
   struct PositionCorrection {
     Vector3 shift, turn;  // M (m, rad)
   };

@@ -77,6 +77,7 @@ class KindComparison {
  public:
   KindComparison(const Job& job, const Plan& plan, const MatchedMoves& matched)
       : plan_(plan),
+        program_(job.program),
         matched_(matched),
         original_(matched.original),
         rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
@@ -306,10 +307,27 @@ class KindComparison {
     if (!failure_) compare_shift(found, "the retract plane R", retract);
     const bool added = cycle.retract_word && !wanted.retract_word,
                both = added || (wanted.retract_word && wanted.bottom_word && cycle.bottom_word);
-    if (!failure_ && both && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
+    const bool chooses = chooses_height_by_retract(program_, original_) && found.known_start[2];
+    if (!failure_ && chooses) compare_height_of_way(found);
+    const double above_tool = cycle.retract_mm - found.start_mm.z();
+    const bool raised = chooses && is_above_tool(original_) && above_tool <= roundings * rounding_mm_;
+    if (!failure_ && both && !raised && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
       fail(found,
            fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",
                        retract, bottom));
+  }
+
+  static bool is_above_tool(const Move& hole) { return hole.cycle->retract_mm >= hole.start_mm.z(); }
+
+  // Both go to the hole at the height where the series began, or at that of the tool.
+  void compare_height_of_way(const Move& found) {
+    if (is_above_tool(found) == is_above_tool(original_)) return;
+    fail(found,
+         fmt::format("R{:.4f} is {} the tool, which is at Z{:.4f}, that of the original is {} it: LinuxCNC "
+                     "goes to this hole at another height; write R{:.4f} or {}",
+                     found.cycle->retract_mm, is_above_tool(found) ? "not below" : "below",
+                     found.start_mm.z(), is_above_tool(found) ? "below" : "not below", found.start_mm.z(),
+                     is_above_tool(found) ? "less" : "more"));
   }
 
   void compare_shift(const Move& found, const std::string& what, double shift) {
@@ -319,6 +337,7 @@ class KindComparison {
   }
 
   const Plan& plan_;
+  const Program& program_;
   const MatchedMoves& matched_;
   const Move& original_;
   const double rounding_mm_, tolerance_mm_, tilt_tolerance_, most_shift_mm_;

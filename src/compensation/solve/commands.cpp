@@ -53,6 +53,13 @@ Vector3 hole_of(const Move& move) {
   return move.cycle ? bottom_of_hole(move, 1) : move.end_mm;
 }
 
+bool chooses_height_by_retract(const Program& program, const Move& hole) {
+  const CycleMove& cycle = *hole.cycle;
+  // Where the end is not known, nor is the height where the series began.
+  return program.dialect == "linuxcnc" && !cycle.begins_series && !cycle.returns_to_retract &&
+         hole.known_start[2] && (!hole.known_end[2] || hole.start_mm.z() < cycle.initial_mm);
+}
+
 namespace {
 
 Piece piece_without_segment(const Job& job, const Move& original, const Vector3& commanded) {

@@ -38,6 +38,11 @@ Vector3 wanted_of(const Job& job, const Move& move);
 /// Of several holes the last one.
 Vector3 hole_of(const Move& move);
 
+/// Whether R decides at which height the tool goes to a hole: LinuxCNC goes at the height where the series
+/// began if R is not below the tool, else at that of the tool. This matters under G98 behind a hole under
+/// G99.
+bool chooses_height_by_retract(const Program& program, const Move& hole);
+
 /// The piece of the hole of a cycle at fraction `u` of its move (`fractions_of_holes`). `found` commands it:
 /// the same move, or the one that was written for it.
 Piece piece_of_hole(const Job& job, const Move& original, const Move& found, double u);

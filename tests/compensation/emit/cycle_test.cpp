@@ -79,3 +79,33 @@ TEST_CASE(
 TEST_CASE("a perfect machine gives back programs with cycles byte for byte") {
   CHECK(compensated(Shop({.machine = perfect_gantry(), .text = holes})).text == holes);
 }
+
+// Behind G99 LinuxCNC goes at Z50 if R is not below the tool, else at the height of the tool. The plane X Y
+// is turned about Y: the second hole is deeper in the words than the first one.
+TEST_CASE("linuxcnc: behind a hole under G99, R of one under G98 is above the tool as in the original") {
+  Machine machine = perfect_gantry();
+  std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, -4e-4, 0));
+  for (const std::string second : {"G98 G81 X90. Y10. Z-5. R2.", "G98 X90. R2.", "G98 X90. R2.0000"}) {
+    CAPTURE(second);
+    const std::string begin = "G21 G90 G17\nG0 X0. Y0. Z50.\nG99 G81 X10. Y10. Z-5. R2. F100\n",
+                      text = begin + second + "\nX95.\nG80\nM2\n";
+    const Shop shop({.machine = machine, .text = text});
+    const std::string corrected = compensated(shop).text;
+    const std::vector<Move> moves = moves_in(corrected);
+    CHECK(moves[1].cycle->retract_mm - 2 > -0.01);
+    CHECK(moves[2].cycle->bottom_mm + 5 < -0.03);
+    CHECK(moves[2].cycle->retract_mm >= moves[2].start_mm.z());
+    CHECK(moves[2].cycle->retract_mm < moves[2].start_mm.z() + 1e-3);
+    CHECK(refusal_of(shop, corrected) == "");
+    std::string lower = corrected;
+    const std::size_t r = lower.rfind(" R");
+    lower.replace(r, lower.find_first_of(" \n", r + 1) - r, " R1.96");
+    CHECK(refusal_of(shop, lower).find("LinuxCNC goes to this hole at another height") != std::string::npos);
+  }
+  // Other controls go at the height of the tool in any case.
+  const Shop fanuc({.machine = machine,
+                    .text = "%\nO1\nG21 G90 G17\nG0 X0. Y0. Z50.\nG99 G81 X10. Y10. Z-5. R2. F100\nG98 X90. "
+                            "R2.\nG80\nM30\n%\n"});
+  const std::vector<Move> moves = moves_in(compensated(fanuc).text);
+  CHECK(moves[2].cycle->retract_mm - moves[2].cycle->bottom_mm == doctest::Approx(7));
+}
