@@ -144,6 +144,19 @@ TEST_CASE("probing, splines and threads are held; the position after probing is 
   CHECK(read(known_start_block + "G31 X5. F10.\nX6.\n", "fanuc").moves[2].motion == Motion::rapid);
 }
 
+TEST_CASE("the way of a spline or a pocket is not that from its start to its end") {
+  for (const auto& [block, dialect] :
+       {std::pair{"G5 I1 J1 P1 Q1 X5 Y5", "linuxcnc"}, std::pair{"G5.1 I1 J1 X5 Y5", "linuxcnc"},
+        std::pair{"G13 Z-2. I5. K10. Q1. D1 F50.", "haas"}}) {
+    CAPTURE(block);
+    const Move move = read(known_start_block + block + "\n", dialect).moves.at(1);
+    CHECK_FALSE(all_known(move.known_start));
+    CHECK(all_known(move.known_end));
+    CHECK(all_known(move.moved_only_by_program));
+  }
+  CHECK(all_known(read(known_start_block + "G5 P10000\nG1 X5. F100.\n", "fanuc").moves.at(1).known_start));
+}
+
 TEST_CASE("pockets end at their start, motions defined by the control are fixed") {
   const Program pocket = read(known_start_block + "G13 Z-2. I5. K10. Q1. D1 F50.\nX1.\n", "haas");
   CHECK(pocket.moves[1].handling == Handling::held);

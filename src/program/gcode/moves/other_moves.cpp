@@ -38,12 +38,25 @@ void apply_retract(const Block& block, Reading& r) {
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
+namespace {
+
+/// Splines and pockets: the tool reaches the end on a way that is not followed.
+void forget_way(Move& move) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis]) move.known_start[axis] = false;
+  move.moved_only_by_program.fill(true);
+}
+
+}  // namespace
+
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
   Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
-  if (!end_known)
+  if (end_known)
+    forget_way(move);
+  else
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
   if (why_not_followed(r).empty()) note_uncorrected(block, r, what);
@@ -88,6 +101,7 @@ void read_pocket(const Block& block, Reading& r) {
   place_words(block, r, move);
   move.handling = Handling::held;
   move.may_insert_words = false;
+  forget_way(move);
   if (why_not_followed(r).empty()) note_uncorrected(block, r, "the control cuts a round pocket");
   finish_move(r, move);
 }

@@ -10,7 +10,8 @@ void add_machine_move(const Block& block, Reading& reading, const FoundG& found)
 /// M25, at the end of its block. An inserted word of Z in a later block would move back down.
 void apply_retract(const Block& block, Reading& reading);
 
-/// Probing, splines, threads: shifted as a whole. After probing the position is unknown.
+/// Probing, splines, threads: shifted as a whole. Behind a spline the position is known (`end_known`), behind
+/// the others it is not.
 void read_held(const Block& block, Reading& reading, std::string_view what, bool end_known);
 
 /// A motion defined by the control, which starts from the block's words. Not corrected.
