@@ -14,6 +14,12 @@ namespace {
 
 constexpr std::string_view subprogram_by_number = "O";
 
+/// Whether the compensation acts alike: behind the move that ends it, it does not act.
+bool act_alike(Contour a, Contour b) {
+  const auto is_off = [](Contour contour) { return contour == Contour::none || contour == Contour::leaving; };
+  return a == b || (is_off(a) && is_off(b));
+}
+
 std::uint16_t differences(const ModalState& a, const ModalState& b) {
   std::uint16_t found = a.unknown_modes | b.unknown_modes;
   if (a.motion != b.motion) found |= unknown_motion;
@@ -23,7 +29,7 @@ std::uint16_t differences(const ModalState& a, const ModalState& b) {
   if (a.frame != b.frame) found |= unknown_offset;
   if (a.absolute_centres != b.absolute_centres) found |= unknown_centres;
   if (a.returns_to_retract != b.returns_to_retract) found |= unknown_level;
-  if (a.contour != b.contour) found |= unknown_cutter;
+  if (!act_alike(a.contour, b.contour)) found |= unknown_cutter;
   if (a.feed_mode != b.feed_mode) found |= unknown_feed_mode;
   if (a.tool != b.tool) found |= unknown_tool;
   return found;

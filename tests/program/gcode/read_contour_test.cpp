@@ -65,3 +65,13 @@ TEST_CASE("an arc before a contour, or before its plunge, is not part of it") {
 TEST_CASE("a move that cannot be followed is not part of a contour") {
   CHECK(groups_of("X2\nG1 Z0\nG41 D1 X3\nX#1\nX4\nG40 X2\n") == Groups{0, 1, 1, 1, 0, 1, 1});
 }
+
+TEST_CASE("a '/' move across behind a contour leaves G40 known") {
+  const std::string start = "G21 G90 G17\nG0 X0 Y0 Z2\nG1 Z-2 F200\nG41 D1 X20 Y0\nY50\n";
+  const Program program = read(start + "G40 X0\nG0 Z5\n/G0 X10 Y0 Z5\nG0 X5 Y5 Z5\nG1 Z-1\n");
+  CHECK_FALSE(any_axis(program.moves.back().fixed));
+  CHECK(all_known(program.moves.back().known_start));
+  // G40 in the '/' block, or a '/' block that may end the compensation.
+  for (const char* text : {"/G40 X0\nG0 Z5\nX5\n", "G40\n/G1 X0\nX5\n"})
+    CHECK(any_axis(read(start + text).moves.back().fixed));
+}
