@@ -19,10 +19,13 @@ std::string length_text(double value, const ModalState& state) {
   return fmt::format("{} inch = {:.6g} mm", value, value * mm_per(*state.unit));
 }
 
-std::string blend_text(const Reading& reading) {
+/// Only LinuxCNC has P and Q of G64.
+std::string blend_text(const Reading& reading, const FoundG& blend) {
   const Word* p = reading.sorted.word('P');
   const Word* q = reading.sorted.word('Q');
-  if (p == nullptr) return "G64 without P: the control may leave the path by any distance";
+  if (p == nullptr)
+    return fmt::format("G{}{}: the control may leave the path by any distance", blend.word->value,
+                       (reading.dialect.family & linuxcnc_family) != 0 ? " without P" : "");
   std::string text = fmt::format("G64 P{}: the control may leave the path by {}", p->value,
                                  length_text(p->value, reading.state));
   const double merged = q != nullptr ? q->value : p->value;
@@ -89,8 +92,8 @@ void add_remark(Program& program, int line, std::string what) {
 }
 
 void remark_path_mode(const Block& block, Reading& reading) {
-  if (reading.sorted.has(Action::blend)) {
-    add_remark(reading.program, block.line, blend_text(reading));
+  if (const FoundG* blend = reading.sorted.find(Action::blend)) {
+    add_remark(reading.program, block.line, blend_text(reading, *blend));
     record_tolerance(block, reading);
   }
   if (const FoundG* smooth = reading.sorted.find(Action::smooth))

@@ -40,7 +40,8 @@ Remark long_line_warning(const LineLengths& lines) {
 /// Compares the largest correction with a path tolerance. The reader's remark explains the tolerance.
 Remark tolerance_warning(const PathTolerance& tolerance, double correction_mm) {
   const std::string largest = fmt::format("the largest correction, {} mm,", shown(correction_mm, 4));
-  if (!tolerance.path_mm) return {tolerance.line, largest + " may vanish under G64 without P"};
+  if (!tolerance.path_mm)
+    return {tolerance.line, largest + " may vanish: the control may leave the path by any distance"};
   const double most = std::max(*tolerance.path_mm, tolerance.merge_mm.value_or(0));
   return {tolerance.line,
           correction_mm <= most

@@ -171,6 +171,15 @@ TEST_CASE("siemens: machine positions make their axes unknown") {
     REQUIRE(program.moves.size() == 2);
     CHECK_FALSE(program.moves[1].known_start[2]);
   }
+  CHECK(siemens(std::string(siemens_start) + "supa G0 Z0\n").left_alone.at(0).why ==
+        "SUPA moves to a position of the machine");
+}
+
+TEST_CASE("siemens: the remark on a path mode names its code, without words of other controls") {
+  CHECK(siemens(std::string(siemens_start) + "G64\n").remarks.back().what ==
+        "G64: the control may leave the path by any distance");
+  CHECK(siemens(std::string(siemens_start) + "G641\n").remarks.back().what ==
+        "G641: the control may leave the path by any distance");
 }
 
 TEST_CASE("siemens: frames, cycles and subprograms are not corrected, with their reasons") {

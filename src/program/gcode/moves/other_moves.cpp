@@ -23,7 +23,10 @@ void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   if (all || r.sorted.has_any("ABC")) r.state.known_angles.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
-  r.last_reason = fmt::format("G{} moves to a position of the machine", found.word->value);
+  // SUPA has the effect of G153.
+  const std::string_view word = part(r.program.text, found.word->span);
+  const std::string code = upper(word[0]) == 'G' ? fmt::format("G{}", found.word->value) : upper_case(word);
+  r.last_reason = code + " moves to a position of the machine";
   // G53 of Fanuc is a rapid under any motion.
   const bool feeds =
       !reference && r.state.motion == MotionMode::feed && (r.dialect.family & fanuc_family) == 0;
