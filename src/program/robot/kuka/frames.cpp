@@ -157,6 +157,10 @@ void read_krl_bas(KrlReading& r, const RobotLine& line, std::size_t at) {
   const std::string value = arguments.size() > 1 ? arguments[1] : "";
   if (what == "#TOOL") select_numbered_tool(r, line, fmt::format("TOOL_DATA[{}]", value));
   if (what == "#BASE") select_frame(r, line, numbered_base(r, fmt::format("BASE_DATA[{}]", value)));
+  const bool is_computed = !what.starts_with('#');
+  if (what == "#EX_BASE" || is_computed)
+    forget_krl_base(r, line);  // the base is on an external kinematic system
+  if (is_computed) r.lost_tool = line.line;
   if (what == "#FRAMES" || what == "#PTP_PARAMS" || what == "#CP_PARAMS") select_frame_data(r, line);
   if (what == "#CP_PARAMS" || what == "#CP_DAT") take_line_data(r);
   if (what == "#VEL_CP" || what == "#CP_PARAMS") {

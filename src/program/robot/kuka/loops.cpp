@@ -92,9 +92,10 @@ std::string assigned_variable(std::string_view text, const RobotLine& line) {
 }
 
 /// Whether a called routine leaves the robot, its frame and its tool. One of another file may do anything.
-bool leaves_robot(const KrlFacts& facts, const std::string& name) {
-  const KrlRoutine* const routine = facts.find(name);
-  if (routine == nullptr) return is_motionless_call(name);
+bool leaves_robot(const KrlFacts& facts, const KrlCall& call) {
+  if (reads_into(call, "$BASE") || reads_into(call, "$TOOL")) return false;
+  const KrlRoutine* const routine = facts.find(call.word);
+  if (routine == nullptr) return is_motionless_call(call.word);
   return !routine->moves && !routine->selects_frame && !routine->selects_tool;
 }
 
@@ -176,7 +177,8 @@ void judge_statements(std::string_view text, const KrlFacts& facts, const RobotL
     if (empty(line.code) || line.line == loop.motion.line) continue;
     const bool calls = is_krl_call(text, line);
     const KrlRoutine* const routine = calls ? facts.find(head_of(text, line)) : nullptr;
-    if (calls && !leaves_robot(facts, head_of(text, line))) body.followed = false;
+    for (const KrlCall& call : krl_calls(text, line))
+      if (!leaves_robot(facts, call)) body.followed = false;
     const bool repeats = calls ? routine != nullptr && !routine->acts : may_repeat(text, line);
     loop.acts = loop.acts || !repeats || uses_counter(text, line, body);
     const std::string variable = assigned_variable(text, line);

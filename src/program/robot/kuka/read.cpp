@@ -138,9 +138,9 @@ void forget_modes(KrlReading& r, const KrlRoutine& routine, std::string_view nam
 /// A call may run any statement of a routine of another file.
 void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   r.zone_mm = 0;
-  if (is_motionless_call(krl_word(name))) return;
   const KrlRoutine* const routine = r.facts.find(krl_word(name));
-  if (routine == nullptr && is_stated_harmless(r.robot, line, name)) return;
+  if (routine == nullptr && (is_motionless_call(krl_word(name)) || is_stated_harmless(r.robot, line, name)))
+    return;
   r.has_called = true;
   if (routine != nullptr && routine->selects_tool) r.lost_tool = line.line;
   if (routine != nullptr && routine->selects_frame) forget_krl_base(r, line);
@@ -155,16 +155,16 @@ void read_call(KrlReading& r, const RobotLine& line, std::string_view name) {
   note_cutting_call(r.robot, line, fmt::format("'{}' is not followed: its motions are not corrected", name));
 }
 
-/// Routines of the file that an expression, TRIGGER or INTERRUPT behind the first word of the line calls.
-void read_inner_calls(KrlReading& r, const RobotLine& line, std::size_t at) {
-  const std::string_view text = r.robot.program.text;
-  while (at < line.code.end) {
-    const Span name = name_at(text, at, line.code.end);
-    at = empty(name) ? at + 1 : name.end;
-    const std::size_t open = behind_blanks(text, name.end, line.code.end);
-    if (empty(name) || open >= line.code.end || text[open] != '(') continue;
-    const KrlRoutine* const routine = r.facts.find(krl_word(part(text, name)));
-    if (routine != nullptr && (routine->acts || routine->sets_speed)) read_call(r, line, part(text, name));
+/// The routines that an expression, TRIGGER or INTERRUPT behind the first word of the line calls, and what
+/// functions of the control read into $BASE and $TOOL.
+void read_inner_calls(KrlReading& r, const RobotLine& line) {
+  for (const KrlCall& call : krl_calls(r.robot.program.text, line)) {
+    if (reads_into(call, "$BASE")) forget_krl_base(r, line);
+    if (reads_into(call, "$TOOL")) r.lost_tool = line.line;
+    const KrlRoutine* const routine = r.facts.find(call.word);
+    const bool acts =
+        routine == nullptr ? !is_motionless_call(call.word) : routine->acts || routine->sets_speed;
+    if (acts && call.name.begin != line.code.begin) read_call(r, line, part(r.robot.program.text, call.name));
   }
 }
 
@@ -209,7 +209,7 @@ void read_krl_statement(KrlReading& r, const RobotLine& line) {
   if (r.routine_ended || line.code.begin < r.behind_loop) return;
   const Span name = name_at(text, line.code.begin, line.code.end);
   const std::string head = krl_word(part(text, name));
-  if (!begins_routine(text, line)) read_inner_calls(r, line, name.end);
+  read_inner_calls(r, line);
   if (is_one_of(head, motions)) {
     read_krl_motion(r, line, head, name.end);
     r.has_trigger = false;

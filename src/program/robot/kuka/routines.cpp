@@ -2,6 +2,7 @@
 
 #include <algorithm>
 #include <array>
+#include <span>
 
 #include "program/robot/kuka/loops.hpp"
 #include "program/robot/kuka/names.hpp"
@@ -16,16 +17,60 @@ constexpr auto cutting_words = std::to_array<std::string_view>(
 constexpr auto joint_words =
     std::to_array<std::string_view>({"PTP", "PTP_REL", "PTP_SPLINE", "SPTP", "SPTP_REL"});
 /// Words that a parenthesis may follow.
-constexpr auto no_calls = std::to_array<std::string_view>(
-    {"BAS",    "IF",  "ELSEIF", "WHILE",  "UNTIL", "SWITCH", "CASE",  "FOR",
-     "WAIT",   "NOT", "AND",    "OR",     "EXOR",  "B_NOT",  "B_AND", "B_OR",
-     "B_EXOR", "TO",  "STEP",   "RETURN", "EXT",   "EXTFCT", "DEF",   "DEFFCT"});
-/// Functions that change none of their arguments.
-constexpr auto pure_functions = std::to_array<std::string_view>(
-    {"ABS", "SQRT", "SIN", "COS", "TAN", "ACOS", "ATAN2", "INV_POS", "VARSTATE", "PULSE"});
-constexpr auto motionless_calls =
-    std::to_array<std::string_view>({"PULSE", "CWRITE", "CREAD", "SREAD", "SWRITE", "COPEN", "CCLOSE",
-                                     "CIOCTL", "CAST_TO", "CAST_FROM", "VARSTATE", "MSG"});
+constexpr auto no_calls = std::to_array<std::string_view>({
+    "BAS",    "IF",  "ELSEIF", "WHILE", "UNTIL",  "SWITCH", "CASE", "FOR",    "WAIT", "SEC",
+    "NOT",    "AND", "OR",     "EXOR",  "B_NOT",  "B_AND",  "B_OR", "B_EXOR", "TO",   "STEP",
+    "RETURN", "EXT", "EXTFCT", "DEF",   "DEFFCT", "WHEN",   "DO",   "ON",     "OFF",
+});
+/// Functions that change none of their arguments. Functions of the language and of its strings: KUKA System
+/// Software 8.x, Operating and Programming Instructions for System Integrators, "Functions".
+constexpr auto pure_functions = std::to_array<std::string_view>({"ABS",
+                                                                 "SQRT",
+                                                                 "SIN",
+                                                                 "COS",
+                                                                 "TAN",
+                                                                 "ACOS",
+                                                                 "ATAN",
+                                                                 "ATAN2",
+                                                                 "FRAND",
+                                                                 "INV_POS",
+                                                                 "EB",
+                                                                 "EK",
+                                                                 "EO",
+                                                                 "LK",
+                                                                 "VARSTATE",
+                                                                 "VARTYPE",
+                                                                 "GETVARSIZE",
+                                                                 "GETCYCDEF",
+                                                                 "GETSYSSTATE",
+                                                                 "GET_AXESMASK",
+                                                                 "GET_DIAGSTATE",
+                                                                 "STRLEN",
+                                                                 "STRDECLLEN",
+                                                                 "STRCOMP",
+                                                                 "STRFIND",
+                                                                 "IS_KEY_PRESSED",
+                                                                 "EXISTS_KRLMSG",
+                                                                 "EXISTS_KRLDLG",
+                                                                 "CLEAR_KRLMSG",
+                                                                 "PULSE"});
+/// Functions that leave the robot, its frame and its tool, but may change an argument. IR_STOPM is the
+/// interrupt routine of the control that the fold INI of its programs declares.
+constexpr auto motionless_calls = std::to_array<std::string_view>(
+    {"CWRITE",      "CREAD",           "SREAD",          "SWRITE",           "COPEN",
+     "CCLOSE",      "CIOCTL",          "CAST_TO",        "CAST_FROM",        "MSG",
+     "FORWARD",     "INVERSE",         "STRADD",         "STRCLEAR",         "STRCOPY",
+     "STRTOBOOL",   "STRTOINT",        "STRTOREAL",      "STRTOSTRING",      "STRTOFRAME",
+     "STRTOPOS",    "STRTOE3POS",      "STRTOE6POS",     "STRTOAXIS",        "STRTOE3AXIS",
+     "STRTOE6AXIS", "SET_KRLMSG",      "SET_KRLDLG",     "SET_KRLDLGANSWER", "GET_MSGBUFFER",
+     "GET_SIG_INF", "GET_SYSTEM_DATA", "GET_DECL_PLACE", "ERR_CLEAR",        "ERR_RAISE",
+     "IR_STOPM"});
+/// Files and EthernetKRL.
+constexpr auto motionless_prefixes = std::to_array<std::string_view>({"KRL_F", "EKI_"});
+/// Those that read values into their arguments.
+constexpr auto reading_calls = std::to_array<std::string_view>(
+    {"CREAD", "SREAD", "CAST_FROM", "STRTOFRAME", "STRTOPOS", "STRTOE3POS", "STRTOE6POS"});
+constexpr auto reading_prefixes = std::to_array<std::string_view>({"KRL_FREAD", "KRL_FSCAN", "EKI_GET"});
 constexpr auto speeds =
     std::to_array<std::string_view>({"$VEL", "$ACC", "$APO", "LDAT_ACT", "PDAT_ACT", "$ADVANCE"});
 constexpr auto conditions = std::to_array<std::string_view>(
@@ -79,6 +124,10 @@ std::vector<std::string> parts_between_commas(std::string_view text, Span span) 
   return parts;
 }
 
+bool begins_with_one_of(std::string_view name, std::span<const std::string_view> prefixes) {
+  return std::ranges::any_of(prefixes, [&](std::string_view prefix) { return name.starts_with(prefix); });
+}
+
 bool is_variable(std::string_view argument) {
   const Span variable = variable_at(argument, 0, argument.size());
   return !empty(variable) && variable.end == argument.size();
@@ -116,7 +165,47 @@ bool is_krl_call(std::string_view text, const RobotLine& line) {
 }
 
 bool is_motionless_call(std::string_view name) {
-  return is_among(name, motionless_calls);
+  return is_among(name, pure_functions) || is_among(name, motionless_calls) ||
+         begins_with_one_of(name, motionless_prefixes);
+}
+
+std::vector<KrlCall> krl_calls(std::string_view text, const RobotLine& line) {
+  std::vector<KrlCall> calls;
+  const std::string head = head_word(text, line);
+  const bool declares = begins_routine(text, line) || head == "EXT" || head == "EXTFCT";
+  if (declares || part(text, line.code).find('(') == std::string_view::npos) return calls;
+  std::string open;  // the brackets around the place
+  char before = ' ';
+  for (std::size_t at = line.code.begin; at < line.code.end;) {
+    const char c = text[at];
+    const Span name = name_at(text, at, line.code.end);
+    if (empty(name)) {
+      if (c == '"') at = std::min(text.find('"', at + 1), line.code.end - 1);
+      if (c == '(' || c == '[' || c == '{') open += c;
+      if ((c == ')' || c == ']' || c == '}') && !open.empty()) open.pop_back();
+      if (!is_blank(c)) before = c;
+      ++at;
+      continue;
+    }
+    const std::size_t bracket = behind_blanks(text, name.end, line.code.end);
+    // "{X (1+2)}": the name of a component
+    const bool is_component = open.ends_with('{') && (before == '{' || before == ',' || before == ':');
+    const std::string word = krl_word(part(text, name));
+    if (bracket < line.code.end && text[bracket] == '(' && !is_component && !is_among(word, no_calls))
+      calls.push_back(
+          {name, word, parts_between_commas(text, {bracket + 1, closing(text, bracket, line.code.end)})});
+    before = text[name.end - 1];
+    at = name.end;
+  }
+  return calls;
+}
+
+bool reads_into(const KrlCall& call, std::string_view variable) {
+  const bool reads = is_among(call.word, reading_calls) || begins_with_one_of(call.word, reading_prefixes);
+  return reads && std::ranges::any_of(call.arguments, [&](const std::string& argument) {
+           return argument == variable ||
+                  (argument.starts_with(variable) && argument[variable.size()] == '.');
+         });
 }
 
 bool may_repeat(std::string_view text, const RobotLine& line) {
@@ -163,7 +252,7 @@ void KrlScan::add_statement(std::string_view text, const RobotLine& line) {
   const bool cuts = is_among(head, cutting_words);
   routine_->cuts = routine_->cuts || cuts;
   routine_->moves = routine_->moves || cuts || is_among(head, joint_words);
-  if (part(text, line.code).find('(') != std::string_view::npos) add_calls(text, line);
+  add_calls(text, line);
   if (begins_declaration(head))
     for (std::size_t at = line.code.begin; at < line.code.end;) {
       const Span name = name_at(text, at, line.code.end);
@@ -189,17 +278,13 @@ void KrlScan::add_statement(std::string_view text, const RobotLine& line) {
 }
 
 void KrlScan::add_calls(std::string_view text, const RobotLine& line) {
-  for (std::size_t at = line.code.begin; at < line.code.end;) {
-    const Span name = name_at(text, at, line.code.end);
-    const std::size_t open = behind_blanks(text, name.end, line.code.end);
-    at = empty(name) ? at + 1 : name.end;
-    if (empty(name) || open >= line.code.end || text[open] != '(') continue;
-    const std::string callee = krl_word(part(text, name));
-    if (is_among(callee, no_calls)) continue;
-    routine_->calls[callee] = routine_->calls[callee] || name.begin == line.code.begin;
-    if (is_among(callee, pure_functions)) continue;
-    const auto arguments = parts_between_commas(text, {open + 1, closing(text, open, line.code.end)});
-    for (std::size_t i = 0; i < arguments.size(); ++i) add_argument(callee, i, arguments[i], line_);
+  for (const KrlCall& call : krl_calls(text, line)) {
+    routine_->calls.insert(call.word);
+    routine_->selects_frame = routine_->selects_frame || reads_into(call, "$BASE");
+    routine_->selects_tool = routine_->selects_tool || reads_into(call, "$TOOL");
+    if (is_among(call.word, pure_functions)) continue;
+    for (std::size_t i = 0; i < call.arguments.size(); ++i)
+      add_argument(call.word, i, call.arguments[i], line_);
   }
 }
 
@@ -217,12 +302,10 @@ bool KrlScan::is_local(std::string_view variable) const {
   return locals_.contains(variable.substr(0, variable.find_first_of(".[")));
 }
 
-// A statement that calls a routine of another file may move the robot; a function in an expression does not.
-KrlRoutine KrlScan::called(const std::string& name, bool as_statement) const {
+// A routine of another file may move the robot, also as a function of an expression.
+KrlRoutine KrlScan::called(const std::string& name) const {
   if (const KrlRoutine* const known = facts_.find(name)) return *known;
-  const bool motionless =
-      is_among(name, pure_functions) || is_motionless_call(name) || harmless_.contains(name);
-  const bool unread = as_statement && !motionless;
+  const bool unread = !is_motionless_call(name) && !harmless_.contains(name);
   return {.moves = unread, .calls_unread = unread, .acts = true};
 }
 
@@ -235,8 +318,8 @@ void KrlScan::close_over_calls() {
   do {
     grows = false;
     for (auto& entry : facts_.routines)
-      for (const auto& call : entry.second.calls) {
-        const KrlRoutine of = called(call.first, call.second);
+      for (const std::string& call : entry.second.calls) {
+        const KrlRoutine of = called(call);
         add(entry.second.moves, of.moves);
         add(entry.second.cuts, of.cuts);
         add(entry.second.calls_unread, of.calls_unread);

@@ -17,16 +17,15 @@ namespace counterflex {
 struct KrlRoutine {
   bool moves = false;          ///< it moves the robot, or calls what may do so
   bool cuts = false;           ///< it has linear or circular motions
-  bool calls_unread = false;   ///< it calls a routine of another file, as a statement
+  bool calls_unread = false;   ///< it calls a routine of another file
   bool selects_frame = false;  ///< $BASE, or a call of BAS that may set it
   bool selects_tool = false;
-  bool sets_speed = false;       ///< $VEL, or a call of BAS that may set it
-  bool sets_turns = false;       ///< $ORI_TYPE, or a call of BAS that may set it
-  bool sets_circle = false;      ///< $CIRC_TYPE
-  bool acts = false;             ///< it does more than set speeds
-  std::vector<bool> is_input{};  ///< by parameter: IN; the routine may change others
-  /// In upper case; true: as a statement, not as a function of an expression.
-  std::map<std::string, bool> calls{};
+  bool sets_speed = false;        ///< $VEL, or a call of BAS that may set it
+  bool sets_turns = false;        ///< $ORI_TYPE, or a call of BAS that may set it
+  bool sets_circle = false;       ///< $CIRC_TYPE
+  bool acts = false;              ///< it does more than set speeds
+  std::vector<bool> is_input{};   ///< by parameter: IN; the routine may change others
+  std::set<std::string> calls{};  ///< in upper case
 };
 
 struct KrlFacts {
@@ -57,7 +56,7 @@ class KrlScan {
   void add_change(std::string_view variable, int line);
   void add_argument(const std::string& callee, std::size_t index, std::string_view argument, int line);
   bool is_local(std::string_view variable) const;
-  KrlRoutine called(const std::string& name, bool as_statement) const;
+  KrlRoutine called(const std::string& name) const;
   void close_over_calls();
 
   /// A variable that is the argument of a call, with its line.
@@ -85,8 +84,22 @@ KrlFacts krl_facts_of(std::string_view text);
 /// Whether "NAME(" begins the statement: a call. BAS selects frames and speeds, but does not move the robot.
 bool is_krl_call(std::string_view text, const RobotLine& line);
 
-/// Whether a call of that function of the control does not move the robot.
+/// Whether a call of that function of the control does not move the robot. `name` is in upper case.
 bool is_motionless_call(std::string_view name);
+
+/// "name(argument, argument)" in a statement.
+struct KrlCall {
+  Span name;
+  std::string word;                    ///< the name in upper case
+  std::vector<std::string> arguments;  ///< in upper case without blanks
+};
+
+/// The calls in the statement of `line`, also those in expressions and behind TRIGGER and INTERRUPT. BAS is
+/// not among them.
+std::vector<KrlCall> krl_calls(std::string_view text, const RobotLine& line);
+
+/// Whether a function of the control writes what it reads to that variable of the control, $BASE or $TOOL.
+bool reads_into(const KrlCall& call, std::string_view variable);
 
 /// Whether a statement may be run more often without another effect: it sets speeds, or is a condition. Calls
 /// are not judged.

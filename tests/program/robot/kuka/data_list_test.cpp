@@ -119,6 +119,8 @@ TEST_CASE("a loop that cannot be followed is refused or not corrected") {
   CHECK(refusal_of(with_statement("POINTS[n].at.X=1"), loop_list).find("computed at run time") !=
         std::string::npos);
   CHECK(read_joined(with_statement("unknown_routine()"), loop_list).moves[0].fixed[0]);
+  CHECK(read_joined(with_statement("x=unknown_function(1)"), loop_list).moves[0].fixed[0]);
+  CHECK_FALSE(read_joined(with_statement("x=ABS(1)"), loop_list).moves[0].fixed[0]);
   CHECK(read_joined(with_statement("$BASE=BASE_DATA[n]"), loop_list).moves[0].fixed[0]);
   CHECK(read_joined(with_statement("IF f>1 THEN"), loop_list).moves[0].fixed[0]);
   CHECK(refusal_of(loop_program, replaced(loop_list, "POINTS[2]={", "POINTS[4]={"))

@@ -1,6 +1,8 @@
 // Programs of KUKA robots: reading.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "counterflex/files/files.hpp"
 #include "counterflex/program/program_reader.hpp"
 #include "program/robot/kuka/kuka.hpp"
@@ -355,6 +357,63 @@ TEST_CASE("a routine of the file in an expression, TRIGGER or INTERRUPT acts as 
     CHECK(is_known("$OUT[7]=TRUE\n"));
     CHECK_FALSE(is_known(line));
   }
+}
+
+TEST_CASE("a KRL function of another file in an expression may cut, as a call of it does") {
+  const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n";
+  const auto calls_of = [&](const std::string& statement) {
+    CAPTURE(statement);
+    const Program program = read_krl("DEF job()\nEXTFCT INT f(INT:IN)\n" + line + statement + line + "END\n");
+    return std::ranges::count_if(program.left_alone, [](const LeftAlone& block) { return block.feeds; });
+  };
+  for (const char* statement :
+       {"f(1)\n", "x=f(1)\n", "x = 1+f (1)\n", "IF f(1)==2 THEN\nENDIF\n", "WAIT FOR f(1)\n",
+        "WHILE f(1)>2\nENDWHILE\n", "RETURN f(1)\n", "$OUT[f(1)]=TRUE\n", "$VEL.CP=f(2)\n",
+        "SWITCH f(1)\nCASE 1\nENDSWITCH\n", "FOR k=1 TO f(3)\nENDFOR\n",
+        "PTP {X f(1),Y 0,Z 60,A 0,B 0,C 0}\n", "TRIGGER WHEN PATH=0 DELAY=0 DO f(1) PRIO=-1\n",
+        "ret=RSI_ON(#RELATIVE)\n", "INTERRUPT DECL 5 WHEN $IN[1]==TRUE DO f(1)\n", "P=INV_POS(f(1))\n"})
+    CHECK(calls_of(statement) == 1);
+  for (const char* statement :
+       {"x=a[1]\n", "x=ABS(SIN(a)+COS(b))*(1+2)\n", "P=INV_POS(Q):R\n", "F={X (1+2),Y 0,Z (k),A 0,B 0,C 0}\n",
+        "IF (a) AND NOT (b) OR ($IN[1]) THEN\nENDIF\n", "WAIT SEC (2)\n", "REPEAT\nUNTIL (a)\n",
+        "MSG(\"call f(1)\")\n", "s[]=\"f(1)\"\n", "INTERRUPT DECL 3 WHEN ($STOPMESS==TRUE) DO IR_STOPM ( )\n",
+        "ok=EKI_OPEN(\"Sensor\")\n", "n=STRLEN(s[])\n", "x=VARSTATE(\"P\")\n",
+        "h=Set_KrlMsg(#INFO,m,p[],o)\n"})
+    CHECK(calls_of(statement) == 0);
+}
+
+TEST_CASE("the expressions of a KRL routine are judged as its calls are") {
+  const auto feeds = [](const std::string& condition) {
+    const Program program =
+        read_krl("DEF job()\nIF " + condition + " THEN\nENDIF\npart()\nEND\nDEF part()\nIF " + condition +
+                 " THEN\n$OUT[1]=TRUE\nENDIF\nEND\n");
+    return std::ranges::count_if(program.left_alone, [](const LeftAlone& block) { return block.feeds; });
+  };
+  CHECK(feeds("ABS(x)>2") == 0);
+  CHECK(feeds("other(x)>2") == 2);
+}
+
+TEST_CASE("behind an external base, and a value read into $BASE or $TOOL, these are not known") {
+  const std::string line = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0} C_DIS\n";
+  const std::string start = "DEF job()\n$TOOL=TOOL_DATA[3]\n$BASE=BASE_DATA[1]\n" + line;
+  const auto base_behind = [&](const std::string& statement, const std::string& routines = "") {
+    const Program program = read_krl(start + statement + line + "END\n" + routines);
+    return program.frames[program.moves.back().frame].work_offset;
+  };
+  CHECK(base_behind("BAS(#EX_BASE,1)\n") == "$BASE of line 5");
+  CHECK(base_behind("BAS(what,1)\n$TOOL=TOOL_DATA[3]\n") == "$BASE of line 5");
+  CHECK(base_behind("SREAD(a,b,$BASE)\n") == "$BASE of line 5");
+  CHECK(base_behind("CREAD(1,s,m,t,o,\"%r\",$BASE.X)\n") == "$BASE of line 5");
+  CHECK(base_behind("ok=EKI_GetFrame(\"S\",\"F\",$BASE)\n") == "$BASE of line 5");
+  CHECK(base_behind("part()\n", "DEF part()\nSREAD(a,b,$BASE)\nEND\n") == "$BASE of line 5");
+  CHECK(base_behind("SWRITE(s[],t,o,\"%r\",$BASE.X)\n") == "BASE_DATA[1]");
+  CHECK(base_behind("BAS(#VEL_PTP,100)\nBAS(#ACC_CP,50)\n") == "BASE_DATA[1]");
+  const auto refusal = [&](const std::string& statement) {
+    return diagnostic_of([&] { read_krl(start + statement + line + "END\n"); });
+  };
+  CHECK(
+      refusal("SREAD(a,b,$TOOL)\n").starts_with("job.src:6:1: error: the tool of this motion is not known"));
+  CHECK(refusal("SREAD(a,b,c)\n") == "none");
 }
 
 TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
