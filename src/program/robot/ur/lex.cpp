@@ -1,6 +1,7 @@
 #include "program/robot/ur/lex.hpp"
 
 #include <algorithm>
+#include <array>
 #include <span>
 
 #include "program/text/lex.hpp"
@@ -111,6 +112,37 @@ Span ur_name_at(std::string_view text, std::size_t at, std::size_t end) {
   std::size_t behind = at;
   while (behind < end && is_identifier_character(text[behind])) ++behind;
   return {at, behind};
+}
+
+std::vector<UrCallName> ur_calls(std::string_view text, Span code) {
+  std::vector<UrCallName> calls;
+  Span before{};  // the last name
+  visit_ur_names(text, code, [&](Span name) {
+    const bool is_method = name.begin > code.begin && text[name.begin - 1] == '.';
+    const bool has_object = is_method && before.end + 1 == name.begin;
+    const std::size_t open = behind_blanks(text, name.end, code.end);
+    if (open < code.end && text[open] == '(')
+      calls.push_back({{has_object ? before.begin : name.begin, name.end},
+                       (is_method ? "." : "") + std::string(part(text, name))});
+    before = name;
+  });
+  return calls;
+}
+
+std::optional<std::size_t> ur_second_statement(std::string_view text, Span value) {
+  constexpr auto operators = std::to_array<std::string_view>({"and", "or", "xor", "not", "run"});
+  bool behind_operand = false;
+  for (std::size_t at = value.begin; at < value.end;) {
+    const char c = text[at];
+    std::size_t end = at;
+    if (c == '"') end = std::min(text.find('"', at + 1), value.end - 1) + 1;
+    while (c != '"' && end < value.end && (is_identifier_character(text[end]) || text[end] == '.')) ++end;
+    const bool is_operand = end > at && c != '.' && !is_among(text.substr(at, end - at), operators);
+    if (is_operand && behind_operand) return at;
+    if (end > at || !is_blank(c)) behind_operand = is_operand || c == '.' || c == ')' || c == ']';
+    at = std::max(end, at + 1);
+  }
+  return std::nullopt;
 }
 
 Span ur_operand(std::string_view text, Span value) {

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <optional>
+#include <string>
 #include <string_view>
 #include <vector>
 
@@ -64,6 +65,19 @@ void visit_ur_names(std::string_view text, Span code, const Visit& visit) {
     if (name.end > name.begin && !quoted) visit(name);
   }
 }
+
+/// The name of a call in an expression or a statement.
+struct UrCallName {
+  Span name;         ///< with its object: "server.next" of "server.next(3)"
+  std::string word;  ///< "sin"; ".next" of a method
+};
+
+/// The calls in `code`, but not those in strings.
+std::vector<UrCallName> ur_calls(std::string_view text, Span code);
+
+/// The byte in the expression `value` at which another statement begins: an operand behind an operand. Empty
+/// without one.
+std::optional<std::size_t> ur_second_statement(std::string_view text, Span value);
 
 /// The pose or the name in a target: of "P1", "pose_trans(plane, P1)" and "get_inverse_kin(P1, qnear=Q1)" it
 /// is "P1".

@@ -19,14 +19,6 @@ void count_names(std::string_view text, Span code, UrNames& names) {
   });
 }
 
-/// The names in `code` that an opening bracket follows.
-void add_calls(std::string_view text, Span code, UrFunctions& calls) {
-  visit_ur_names(text, code, [&](Span name) {
-    const std::size_t open = behind_blanks(text, name.end, code.end);
-    if (open < code.end && text[open] == '(') calls.emplace(part(text, name));
-  });
-}
-
 void add_assignment(std::string_view text, const UrAssignment& assignment, bool in_body, UrNames& names) {
   UrVariable& variable = names.variables[std::string(part(text, assignment.variable))];
   variable.values.push_back(assignment.value);
@@ -78,7 +70,8 @@ UrNames ur_names(std::string_view text) {
       bodies.push_back(&names.functions[std::string(part(text, name))]);
     } else {
       if (ur_opens_body(word)) bodies.push_back(function);
-      if (function != nullptr) add_calls(text, line.code, *function);
+      if (function != nullptr)
+        for (const UrCallName& call : ur_calls(text, line.code)) function->insert(call.word);
     }
     if (word == "end" && !bodies.empty()) bodies.pop_back();
     const auto assignment = ur_assignment(text, line.code);

@@ -23,7 +23,7 @@ using UrFunctions = std::set<std::string, std::less<>>;  ///< names of functions
 
 struct UrNames {
   std::map<std::string, UrVariable, std::less<>> variables;
-  /// Functions and threads that the text defines, with the functions that each calls.
+  /// Functions and threads that the text defines, with the words of the calls in each.
   std::map<std::string, UrFunctions, std::less<>> functions;
   /// Where the text calls a function that it does not define, before the statement that is read. It might
   /// assign variables.

@@ -37,19 +37,6 @@ void run_function(UrReading& r, const RobotLine& line, std::string_view name) {
   note_unread_call(r.robot, line, why);
 }
 
-/// A function of the program in an expression, in arguments or in "run thread()".
-void run_functions_in(UrReading& r, const RobotLine& line, Span value) {
-  const std::string_view text = r.robot.program.text;
-  for (std::size_t at = value.begin; at < value.end;) {
-    const Span name = ur_name_at(text, at, value.end);
-    at = empty(name) ? at + 1 : name.end;
-    const std::size_t open = behind_blanks(text, name.end, value.end);
-    if (empty(name) || open >= value.end || text[open] != '(') continue;  // p[0, 0, 0, 0, 0, 0] is a pose
-    if (r.names.functions.contains(part(text, name)) && !r.still_functions.contains(part(text, name)))
-      return run_function(r, line, part(text, name));
-  }
-}
-
 // Tools have no numbers: another pose is another tool.
 void select_tool(UrReading& r, const UrCall& call) {
   const std::string_view text = r.robot.program.text;
@@ -67,21 +54,57 @@ void select_tool(UrReading& r, const UrCall& call) {
   enter_robot_tool(r.robot, 0, is_constant ? std::optional(ur_pose_mm(*tcp)) : std::nullopt);
 }
 
+void refuse_shifting(const UrReading& r, const RobotLine& line, Span name) {
+  const std::string_view word = part(r.robot.program.text, name);
+  if (is_among(word, ur_shifting))
+    refuse(r.robot.program.file, line, name.begin,
+           fmt::format("{} shifts the tool away from the programmed targets at run time, which is not "
+                       "supported; use a program without it",
+                       word));
+}
+
 void read_call(UrReading& r, const RobotLine& line, const UrCall& call) {
   const std::string_view name = part(r.robot.program.text, call.name);
   if (r.still_functions.contains(name)) return;
   if (r.names.functions.contains(name)) return run_function(r, line, name);
   if (is_among(name, ur_motions)) return read_ur_motion(r, line, call);
   if (name == "set_tcp") return select_tool(r, call);
-  if (is_among(name, ur_shifting))
-    refuse(r.robot.program.file, line, call.name.begin,
-           fmt::format("{} shifts the tool away from the programmed targets at run time, which is not "
-                       "supported; use a program without it",
-                       name));
+  refuse_shifting(r, line, call.name);
   if (is_among(name, ur_other_motions))
     return add_unfollowed_move(r.robot, line, fmt::format("{} is not supported", name));
   if (is_ur_motionless_call(name)) return;
   if (!is_stated_harmless(r.robot, line, name)) run_function(r, line, name);
+}
+
+/// The calls in an expression, in arguments or in "run thread()": not the one that begins the statement.
+void read_inner_calls(UrReading& r, const RobotLine& line) {
+  const std::string_view text = r.robot.program.text;
+  for (const UrCallName& call : ur_calls(text, line.code)) {
+    if (call.name.begin == line.code.begin) continue;
+    const std::string_view name = part(text, call.name);
+    if (r.still_functions.contains(call.word)) continue;
+    if (r.names.functions.contains(call.word)) {
+      run_function(r, line, name);
+      continue;
+    }
+    refuse_shifting(r, line, call.name);
+    if (is_among(call.word, ur_motions) || is_among(call.word, ur_other_motions) || call.word == "set_tcp")
+      refuse(r.robot.program.file, line, call.name.begin,
+             fmt::format("the call of {} is a part of another statement; write each statement into a line of "
+                         "its own",
+                         name));
+    if (is_ur_motionless_call(call.word) || is_stated_harmless(r.robot, line, name)) continue;
+    run_function(r, line, name);
+  }
+}
+
+/// "x = 1 y = 2": the end of the first statement is not known for sure.
+void refuse_second_statement(const UrReading& r, const RobotLine& line, const UrAssignment& assignment) {
+  const std::string_view text = r.robot.program.text;
+  if (const auto second = ur_second_statement(text, assignment.value))
+    refuse(r.robot.program.file, line, *second,
+           fmt::format("unexpected text behind the value of {}; write each statement into a line of its own",
+                       part(text, assignment.variable)));
 }
 
 void refuse_empty_argument(const UrReading& r, const RobotLine& line, const UrCall& call) {
@@ -151,16 +174,22 @@ void read_ur_statement(UrReading& r, const RobotLine& line) {
   if (head.empty())
     refuse(file, line, line.code.begin, "the statement is not URScript: it begins with no name");
   if (head == "end") return close_body(r, line);
-  if (!ur_begins_function(head)) run_functions_in(r, line, {name.end, line.code.end});
-  if (reads_structure(r, line, head) || ur_assignment(text, line.code)) return;
+  if (reads_structure(r, line, head)) return ur_begins_function(head) ? void() : read_inner_calls(r, line);
+  if (const auto assignment = ur_assignment(text, line.code)) {
+    read_inner_calls(r, line);
+    return refuse_second_statement(r, line, *assignment);
+  }
   if (head == "return" || head == "halt") {
+    read_inner_calls(r, line);
     if (!in_body(r)) end_program(r, line);
     return;
   }
-  if (is_among(head, ur_motionless) || head == "global" || head == "local") return;
+  if (is_among(head, ur_motionless) || head == "global" || head == "local") return read_inner_calls(r, line);
   const std::size_t next = behind_blanks(text, name.end, line.code.end);
-  if (next >= line.code.end || text[next] != '(')
+  if (next >= line.code.end || text[next] != '(') {
+    read_inner_calls(r, line);
     return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", part(text, line.code)));
+  }
   const auto call = ur_call_at(text, line.code.begin, line.code.end);
   if (!call)
     refuse(file, line, next,
@@ -170,6 +199,7 @@ void read_ur_statement(UrReading& r, const RobotLine& line) {
            fmt::format("unexpected text behind the call of {}; write each statement into a line of its own",
                        head));
   refuse_empty_argument(r, line, *call);
+  read_inner_calls(r, line);
   read_call(r, line, *call);
 }
 

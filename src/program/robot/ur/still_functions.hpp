@@ -7,7 +7,8 @@
 
 namespace counterflex {
 
-/// Whether the control has a function `name` that does not move the robot and keeps its tool.
+/// Whether `name`, a word of `ur_calls`, is a function of the control that does not move the robot and keeps
+/// its tool, a method of a list, or an operator.
 bool is_ur_motionless_call(std::string_view name);
 
 /// The functions and threads of a text that call nothing else than such functions, routines that are stated

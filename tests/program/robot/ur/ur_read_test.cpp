@@ -1,6 +1,8 @@
 // Programs of Universal Robots: reading.
 #include <doctest/doctest.h>
 
+#include <algorithm>
+
 #include "counterflex/files/files.hpp"
 #include "counterflex/program/overview.hpp"
 #include "program/robot/ur/ur.hpp"
@@ -166,7 +168,7 @@ TEST_CASE("joint positions, calls, loops and conditions leave the position unkno
       "grip(20)\n"
       "movel(p[0.3,0,0,0,0,0])\n"
       "while (True):\n"
-      "  if digital_in(1):\n"
+      "  if get_digital_in(1):\n"
       "    movel(p[0.4,0,0,0,0,0])\n"
       "  else:\n"
       "    movej(p[0.5,0,0,0,0,0])\n"
@@ -197,7 +199,7 @@ TEST_CASE("a function of the program in a condition or in an argument makes the 
     return all_known(program.moves.back().known_start);
   };
   const std::string line = "movel(p[0.1,0,0,0,0,0])\n";
-  CHECK(is_known_behind("if ready():\nsync()\nend\n" + line));
+  CHECK(is_known_behind("if is_steady():\nsync()\nend\n" + line));
   CHECK(is_known_behind("movel(p[0.1,0,0,0,0,0], v=speed)\n"));
   CHECK(!is_known_behind("if probe():\nsync()\nend\n" + line));
   CHECK(!is_known_behind("while not probe():\nsync()\nend\n" + line));
@@ -267,6 +269,47 @@ TEST_CASE("a function that is not in the script may cut, and the report shows wh
   REQUIRE(other.remarks.size() == 1);
   CHECK(other.remarks[0].what.starts_with(
       "assumed from here on: called programs do not change features and the tool centre point"));
+}
+
+TEST_CASE("a function that is not in the script may cut in an expression, too") {
+  const std::string move = "movel(p[0,0,0.1,0,0,0], r=0.001)\n";
+  const auto calls_of = [&](const std::string& statement) {
+    CAPTURE(statement);
+    const Program program = read_ur_statements(move + statement + move);
+    return std::ranges::count_if(program.left_alone, [](const LeftAlone& block) { return block.feeds; });
+  };
+  for (const char* statement : {"ok = f(3)\n", "ok = server.next(3)\n", "local ok = 1 + f (3)\n",
+                                "ok[f(3)] = 1\n", "if f(3) == 2:\nend\n", "while not f(3):\nend\n",
+                                "return f(3)\n", "textmsg(f(3))\n", "ok = [1, f(3)]\n", "ok = norm(f(3))\n"})
+    CHECK(calls_of(statement) == 1);
+  for (const char* statement :
+       {"x = sin(a) + cos(1e-3) * (2 + b) - .5\n", "x = get_actual_tcp_pose()\n",
+        "x = pose_trans(p[0,0,0,0,0,0], y)\n", "x = [1, 2, norm(y), -1]\n",
+        "if (a == 1) and not (b) or (c):\nend\n", "textmsg(\"f(3) of\", a)\n", "x = y[1].z[2]\n",
+        "x = y.length() xor True\n", "x = normalize(wrench_trans(a, b))\n", "x = \"a b\"\n",
+        "x = not is_steady()\n", "x = binary_list_to_integer([True, False])\n",
+        "x = struct(a = 1, b = [2])\n"})
+    CHECK(calls_of(statement) == 0);
+}
+
+TEST_CASE("a motion or another tool is a statement of its own") {
+  const std::string part = " is a part of another statement; write each statement into a line of its own";
+  const std::string pose = "(p[0,0,0.1,0,0,0])";
+  const auto refusal = [](const std::string& statement) {
+    return diagnostic_of([&] { read_ur_statements("x = 1\n" + statement + "\n"); });
+  };
+  CHECK(refusal("x=movel" + pose) == "job.script:3:3: error: the call of movel" + part);
+  CHECK(refusal("x = [1, movel" + pose + "]") == "job.script:3:9: error: the call of movel" + part);
+  CHECK(refusal("x = 1 set_tcp" + pose) == "job.script:3:7: error: the call of set_tcp" + part);
+  CHECK(refusal("if movel" + pose + ":") == "job.script:3:4: error: the call of movel" + part);
+  CHECK(refusal("x = freedrive_mode()") == "job.script:3:5: error: the call of freedrive_mode" + part);
+  CHECK(
+      refusal("x = force_mode" + pose)
+          .starts_with("job.script:3:5: error: force_mode shifts the tool away from the programmed targets"));
+  CHECK(refusal("x = 1 y = p[0.6,0,0,0,0,0]") ==
+        "job.script:3:7: error: unexpected text behind the value of x; write each statement into a line of "
+        "its own");
+  CHECK(refusal("x = a(1) b").starts_with("job.script:3:10: error: unexpected text behind the value of x"));
 }
 
 TEST_CASE("what URScript shifts at run time, and text that is not a program, is refused with its line") {
