@@ -8,10 +8,6 @@
 namespace counterflex {
 namespace {
 
-/// Words of expressions and statements that may precede a bracket.
-constexpr auto words_before_brackets =
-    std::to_array<std::string_view>({"AND", "OR", "XOR", "NOT", "DIV", "MOD", "FROM", "TO", "STEP"});
-
 bool writes_arguments(std::string_view name, const RapidRoutines& routines) {
   const auto routine = routines.find(name);
   return routine != routines.end() ? routine->second.writes_arguments : !only_reads(name);
@@ -49,7 +45,7 @@ class ChangedNames {
   bool bracket_writes() const {
     if (before_.kind != RapidTokenKind::name) return writes_.back();
     const std::string name = rapid_word(part(text_, before_.span));
-    return is_among(name, words_before_brackets) ? writes_.back() : writes_arguments(name, routines_);
+    return is_word_before_bracket(name) ? writes_.back() : writes_arguments(name, routines_);
   }
 
   std::string_view text_;
@@ -58,21 +54,6 @@ class ChangedNames {
   RapidToken before_{};
   bool option_has_result_ = false;  ///< of the option before ":="
 };
-
-/// Whether a statement of that kind has expressions.
-bool has_expressions(RapidKind kind) {
-  switch (kind) {
-    case RapidKind::body_begin:
-    case RapidKind::branch:
-    case RapidKind::short_if:
-    case RapidKind::declaration:
-    case RapidKind::assignment:
-    case RapidKind::call:
-      return true;
-    default:
-      return false;
-  }
-}
 
 }  // namespace
 

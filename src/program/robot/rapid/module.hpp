@@ -95,6 +95,9 @@ bool rapid_depends_on_far_lines(std::string_view text);
 /// Instructions of the control that do not move the robot, by name in upper case.
 bool is_motionless_instruction(std::string_view name);
 
+/// Functions of the control that do not move the robot, by name in upper case.
+bool is_motionless_function(std::string_view name);
+
 /// Instructions that set how the motions behind them run.
 bool is_mode_instruction(std::string_view name);
 

@@ -64,6 +64,29 @@ std::optional<JointPlace> joints_of(const RapidReading& r, const RapidStatement&
   return rapid_joints(place, motion.targets.front());
 }
 
+/// A routine may run any statement. `name`: as the text spells it.
+void run_routine(RapidReading& r, const RobotLine& line, std::string_view name) {
+  const std::string word = rapid_word(name);
+  if (r.module.has_still_routine(word)) return;
+  const bool is_read = r.module.has_routine(word);
+  if (!is_read && is_stated_harmless(r.robot, line, name)) return;
+  forget(r);
+  r.any_configuration = r.any_joint_configuration = false;
+  const std::string why = fmt::format("the call of '{}' may move the robot", name);
+  if (!is_read) return note_unread_call(r.robot, line, why);
+  if (r.module.calls("CIRPATHMODE")) r.circle_path = "UNKNOWN";
+  note_uncorrected(r.robot, line, why);
+}
+
+/// The functions that the expressions of a statement call.
+void read_functions(RapidReading& r, const RobotLine& line, const RapidStatement& statement) {
+  const std::string_view text = r.robot.program.text;
+  for (const Span name : rapid_functions(text, statement)) {
+    const std::string word = rapid_word(part(text, name));
+    if (r.module.has_routine(word) || !is_motionless_function(word)) run_routine(r, line, part(text, name));
+  }
+}
+
 void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& statement) {
   const std::string& file = r.robot.program.file;
   const std::string_view text = r.robot.program.text;
@@ -86,15 +109,7 @@ void read_call(RapidReading& r, const RobotLine& line, const RapidStatement& sta
   if (is_linear_instruction(head))
     return add_unfollowed_move(r.robot, line, fmt::format("'{}' is not supported", name));
   if (is_motionless_instruction(head) && !r.module.has_routine(head)) return read_state(r, line, statement);
-  if (r.module.has_still_routine(head)) return;
-  const bool is_read = r.module.has_routine(head);
-  if (!is_read && is_stated_harmless(r.robot, line, name)) return;
-  forget(r);
-  r.any_configuration = r.any_joint_configuration = false;
-  const std::string why = fmt::format("the call of '{}' may move the robot", name);
-  if (!is_read) return note_unread_call(r.robot, line, why);
-  if (r.module.calls("CIRPATHMODE")) r.circle_path = "UNKNOWN";
-  note_uncorrected(r.robot, line, why);
+  run_routine(r, line, name);
 }
 
 /// A motion is corrected in its line, and inserted statements precede the line.
@@ -115,6 +130,7 @@ void check_line_of_motion(const RapidReading& r, const RobotLine& line, const Ra
 void read_statement(RapidReading& r, const RobotLine& line, const RapidStatement& statement) {
   RobotReading& robot = r.robot;
   check_line_of_motion(r, line, statement);
+  read_functions(r, line, statement);
   switch (statement.kind) {
     case RapidKind::none:
     case RapidKind::module_begin:

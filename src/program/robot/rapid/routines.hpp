@@ -5,6 +5,7 @@
 #include <set>
 #include <string>
 #include <string_view>
+#include <vector>
 
 #include "counterflex/program/read_program.hpp"
 #include "program/robot/rapid/statement.hpp"
@@ -32,6 +33,7 @@ class StillRoutines {
     bool moves = false;
     RapidNames instructions{};  ///< the first names of its calls
     RapidNames names{};         ///< all names in its statements: some may be routines that it calls
+    RapidNames functions{};     ///< that its expressions call
   };
 
   bool may_be_still(const Body& body) const;
@@ -44,6 +46,13 @@ class StillRoutines {
 
 /// The name of the routine that `statement` begins, in upper case. Empty for TRAP, which is not called.
 std::string name_of_routine(std::string_view text, const RapidStatement& statement);
+
+/// Whether a bracket behind that word is not the begin of arguments: AND, FROM. `name` is in upper case.
+bool is_word_before_bracket(std::string_view name);
+
+/// The names of functions that the expressions of `statement` call; of "IF condition statement;" those of the
+/// condition.
+std::vector<Span> rapid_functions(std::string_view text, const RapidStatement& statement);
 
 /// Calls `visit` with the names in [at, end) that may be data or routines: not members or options.
 template <typename Visit>

@@ -182,6 +182,20 @@ RapidStatement rapid_statement_at(std::string_view text, std::size_t at, std::si
   return s;
 }
 
+bool has_expressions(RapidKind kind) {
+  switch (kind) {
+    case RapidKind::body_begin:
+    case RapidKind::branch:
+    case RapidKind::short_if:
+    case RapidKind::declaration:
+    case RapidKind::assignment:
+    case RapidKind::call:
+      return true;
+    default:
+      return false;
+  }
+}
+
 std::size_t statement_of_short_if(std::string_view text, const RapidStatement& statement) {
   constexpr auto operators = std::to_array<std::string_view>({"AND", "OR", "XOR", "NOT", "DIV", "MOD"});
   bool operand = false;

@@ -36,6 +36,9 @@ struct RapidStatement {
 /// The first statement from byte `at` on.
 RapidStatement rapid_statement_at(std::string_view text, std::size_t at, std::size_t end);
 
+/// Whether a statement of that kind has expressions.
+bool has_expressions(RapidKind kind);
+
 /// Position of the statement in "IF condition statement;": of the first name behind a complete operand.
 std::size_t statement_of_short_if(std::string_view text, const RapidStatement& statement);
 

@@ -1,6 +1,7 @@
 // Programs of ABB robots: what is refused or not followed, and modules in windows.
 #include <doctest/doctest.h>
 
+#include <algorithm>
 #include <cstdio>
 #include <cstdlib>
 #include <filesystem>
@@ -156,6 +157,40 @@ TEST_CASE("a routine of another RAPID module may cut, also in a module that is r
     CHECK(other.remarks[0].what.starts_with(
         "assumed from here on: called programs do not change work objects and tools"));
   }
+}
+
+TEST_CASE("a function of another RAPID module may cut, as a routine does") {
+  const std::string motion = "MoveL " + target_at("1,2,3") + ",v100,z1,tool0;\n";
+  const std::string declarations =
+      "FUNC num twice(num a)\nRETURN Abs(2*a);\nENDFUNC\nFUNC num deep(num a)\nRETURN f(a);\nENDFUNC\n"
+      "FUNC num lift()\nraise;\nRETURN 1;\nENDFUNC\nPROC raise()\n" +
+      motion + "ENDPROC\n";
+  const auto calls_of = [&](const std::string& statement, const std::string& more) {
+    CAPTURE(statement);
+    const Program program = read_rapid(module_of(more, motion + statement + motion));
+    return std::ranges::count_if(program.left_alone, [](const LeftAlone& block) { return block.feeds; });
+  };
+  for (const char* statement :
+       {"x:=f(5);\n", "x:=1+f (5);\n", "IF f(1)=2 THEN\nENDIF\n", "IF f()=2 x:=1;\n",
+        "WHILE f(1)>2 DO\nENDWHILE\n", "FOR i FROM 1 TO f(2) DO\nENDFOR\n", "TEST f(1)\nCASE 1:\nENDTEST\n",
+        "WaitUntil f();\n", "TPWrite \"a\"\\Num:=f(2);\n", "y{f(1)}:=2;\n", "SetDO do1,f(1);\n",
+        "x:=Abs(f(2));\n"})
+    CHECK(calls_of(statement, "") == 1);
+  for (const char* statement :
+       {"x:=y{1}+(2*a);\n", "x:=Abs(Sin(a)+Pow(2,3)) DIV (2);\n", "IF (a) AND NOT (b) OR (c) THEN\nENDIF\n",
+        "p:=CRobT(\\Tool:=tool0\\WObj:=wobj0);\n", "ok:=StrToVal(\"f(1)\",x);\n",
+        "x:=UINumEntry(\\Header:=\"a\");\n", "FOR i FROM (1) TO (a) STEP (2) DO\nENDFOR\n",
+        "TPWrite(\"call f(1)\");\n", "RETURN (a);\n", "x:=PoseMult(a,PoseInv(b)).trans.x;\n",
+        "x:=twice(3);\n"})
+    CHECK(calls_of(statement, declarations) == 1);  // of the body of deep
+  const auto is_known_behind = [&](const std::string& statement) {
+    return all_known(
+        read_rapid(module_of(declarations, motion + statement + motion)).moves.back().known_start);
+  };
+  CHECK(is_known_behind("x:=twice(3);\n"));
+  CHECK_FALSE(is_known_behind("x:=deep(3);\n"));
+  CHECK_FALSE(is_known_behind("x:=lift();\n"));
+  CHECK(calls_of("IF f()=2 THEN\nENDIF\n", "PROC lift()\n" + motion + "ENDPROC\n") == 1);
 }
 
 TEST_CASE("behind a routine of the module CirPathMode is not known if the module sets it") {
