@@ -15,7 +15,6 @@ namespace {
 /// Statements that do not move the tool.
 constexpr auto apt_motionless = std::to_array<std::string_view>({"PARTNO",
                                                                  "PPRINT",
-                                                                 "INSERT",
                                                                  "REMARK",
                                                                  "TITLES",
                                                                  "MACHIN",
@@ -239,6 +238,19 @@ bool reads_state(AptReading& r, const RobotLine& line, const AptStatement& state
   return true;
 }
 
+/// Whether the text of INSERT is not a block of any control: one comment in parentheses, or a text that
+/// begins with a quantity, "5MM CRB 4FL", as posts write it into a comment.
+bool inserts_no_block(std::string_view text, Span code) {
+  Span inserted{code.begin + std::string_view("INSERT").size(), code.end};
+  while (inserted.begin < inserted.end && (is_blank(text[inserted.begin]) || text[inserted.begin] == '/'))
+    ++inserted.begin;
+  const std::string_view words = part(text, inserted);
+  const std::size_t behind_number = std::min(words.find_first_not_of("0123456789."), words.size());
+  const bool is_quantity =
+      behind_number > 0 && behind_number < words.size() && is_letter(words[behind_number]);
+  return words.empty() || is_quantity || (words.starts_with('(') && words.find(')') == words.size() - 1);
+}
+
 }  // namespace
 
 void read_apt_statement(AptReading& r, const RobotLine& line) {
@@ -253,8 +265,13 @@ void read_apt_statement(AptReading& r, const RobotLine& line) {
   }
   if (reads_state(r, line, statement) || is_among(head, apt_motionless)) return;
   // Texts need no '/': "PARTNO BRACKET".
-  for (const std::string_view text : {"PARTNO", "PPRINT", "INSERT", "REMARK"})
+  for (const std::string_view text : {"PARTNO", "PPRINT", "REMARK"})
     if (head.starts_with(text)) return;
+  if (head.starts_with("INSERT")) {
+    if (inserts_no_block(r.robot.program.text, line.code)) return;
+    return add_unfollowed_move(r.robot, line,
+                               "INSERT puts its text into the program of the machine: it may move the tool");
+  }
   if (head == "GOHOME" || head == "HOME" || head == "RETRCT")
     return add_joint_move(r.robot, line, fmt::format("{} moves to a position of the machine", head));
   if (is_among(head, apt_transforming))

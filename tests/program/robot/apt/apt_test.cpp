@@ -359,6 +359,25 @@ TEST_CASE("PREFUN/ may set any G code: what is behind it is not followed") {
   CHECK_FALSE(program.moves[2].known_start[0]);
 }
 
+TEST_CASE("INSERT puts its text into the program of the machine: what is behind it is not followed") {
+  const auto read = [](const std::string& statement) {
+    return read_apt("UNITS/MM\nGOTO/0,0,0\n" + statement + "\nGOTO/10,0,0\n");
+  };
+  for (const char* statement :
+       {"INSERT G52 X10", "INSERT/G1 X500", "INSERT TRANS", "INSERT 5 L X+10", "INSERT (A) G52 X10 (B)"}) {
+    CAPTURE(statement);
+    const Program program = read(statement);
+    REQUIRE(program.left_alone.size() >= 1);
+    CHECK(program.left_alone[0].why ==
+          "INSERT puts its text into the program of the machine: it may move the tool");
+    CHECK_FALSE(program.moves.back().known_start[0]);
+  }
+  for (const char* statement : {"INSERT (TOOL 5)", "INSERT/5MM CRB X10", "INSERT", "PPRINT G52 X10"}) {
+    CAPTURE(statement);
+    CHECK(read(statement).left_alone.empty());
+  }
+}
+
 TEST_CASE("a remark of Creo continues in the lines of numbers behind a dollar sign") {
   const std::string text =
       "UNITS / MM\n"
