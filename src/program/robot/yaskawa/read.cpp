@@ -13,14 +13,14 @@ namespace {
 
 /// Instructions that do not move the robot.
 constexpr auto motionless = std::to_array<std::string_view>(
-    {"NOP",     "DOUT",    "DIN",     "AOUT",    "AIN",     "WAIT",    "PULSE",   "TIMER",   "PAUSE",
-     "SET",     "SETE",    "GETE",    "GETS",    "ADD",     "SUB",     "MUL",     "DIV",     "INC",
-     "DEC",     "AND",     "OR",      "NOT",     "XOR",     "CLEAR",   "SQRT",    "SIN",     "COS",
-     "ATAN",    "CNVRT",   "MFRAME",  "MULMAT",  "INVMAT",  "MSHIFT",  "GETPOS",  "GETARG",  "SETFILE",
-     "GETFILE", "SETREG",  "GETREG",  "SETTOOL", "GETTOOL", "MSG",     "CWAIT",   "ADVINIT", "ADVSTOP",
-     "DIALOG",  "SETUALM", "ARATION", "ARATIOF", "PRINT",   "VAL",     "VAL2STR", "STR2VAL", "MID$",
-     "LEN",     "ASC",     "CHR$",    "CAT$",    "TOOLON",  "TOOLOF",  "ARCSET",  "AWELD",   "VWELD",
-     "COMM",    "QUE",     "ONLVOL",  "REFP",    "CLS",     "DIALOGP", "ARCON",   "ARCOF"});
+    {"NOP",     "DOUT",    "DIN",     "AOUT",    "AIN",     "WAIT",    "PULSE",   "TIMER",  "PAUSE",
+     "SET",     "SETE",    "GETE",    "GETS",    "ADD",     "SUB",     "MUL",     "DIV",    "INC",
+     "DEC",     "AND",     "OR",      "NOT",     "XOR",     "CLEAR",   "SQRT",    "SIN",    "COS",
+     "ATAN",    "CNVRT",   "MFRAME",  "MULMAT",  "INVMAT",  "MSHIFT",  "GETPOS",  "GETARG", "GETFILE",
+     "SETREG",  "GETREG",  "GETTOOL", "MSG",     "CWAIT",   "ADVINIT", "ADVSTOP", "DIALOG", "SETUALM",
+     "ARATION", "ARATIOF", "PRINT",   "VAL",     "VAL2STR", "STR2VAL", "MID$",    "LEN",    "ASC",
+     "CHR$",    "CAT$",    "TOOLON",  "TOOLOF",  "ARCSET",  "AWELD",   "VWELD",   "COMM",   "QUE",
+     "ONLVOL",  "REFP",    "CLS",     "DIALOGP", "ARCON",   "ARCOF"});
 
 /// The robot may be anywhere: behind a label, a call.
 void forget(JbiReading& r) {
@@ -52,6 +52,15 @@ void read_call(JbiReading& r, const RobotLine& line, std::string_view what) {
   r.speed_mm_s = 0;
   if (r.call_line == 0) r.call_line = line.line;
   note_unread_call(r.robot, line, fmt::format("'{}' may move the robot", what));
+}
+
+/// SETTOOL TL#(1) P001, SETFILE TOOL#(1).X 5: other numbers of a tool move its centre.
+void read_tool_numbers(JbiReading& r, const RobotLine& line, std::string_view head) {
+  const bool is_tool =
+      head == "SETTOOL" || jbi_word(part(r.robot.program.text, line.code)).find("TOOL#") != std::string::npos;
+  if (!is_tool) return;
+  r.tool.reset();
+  enter_robot_tool(r.robot, 0);
 }
 
 /// SPEED V=100: for the steps behind it that have no speed.
@@ -130,6 +139,7 @@ void read_jbi_statement(JbiReading& r, const RobotLine& line) {
   const std::string head = jbi_word(part(text, head_span));
   if (is_jbi_move(head)) return read_jbi_move(r, line);
   if (const JbiFlow flow = jbi_flow(head); flow != JbiFlow::none) return read_flow(r, line, flow);
+  if (head == "SETTOOL" || head == "SETFILE") return read_tool_numbers(r, line, head);
   if (head == "SPEED") return read_speed(r, line);
   if (head.ends_with("SFTON") || head.ends_with("SFTOF")) return read_shift(r, head.ends_with("SFTON"));
   if (is_among(head, motionless)) return;

@@ -161,6 +161,19 @@ TEST_CASE("the place of the robot is unknown behind a label, a call and an unkno
     CHECK(all_known(read_steps("MOVL C00001 V=10\n" + between + "MOVL C00002 V=10\n").moves[1].known_start));
 }
 
+TEST_CASE("the place of the tool is unknown behind an instruction that sets the numbers of a tool") {
+  const auto is_known_behind = [](const std::string& instruction) {
+    CAPTURE(instruction);
+    const Program program = read_steps("MOVL C00001 V=50.0\n" + instruction + "MOVL C00002 V=50.0\n");
+    CHECK(program.moves.back().tool == 2);
+    return program.moves.back().known_start[0];
+  };
+  CHECK_FALSE(is_known_behind("SETTOOL TL#(1) P001\n"));
+  CHECK_FALSE(is_known_behind("SETFILE TOOL#(1).X 5\n"));
+  CHECK(is_known_behind("SETFILE WEV#(1).AMP 5\n"));
+  CHECK(is_known_behind("GETTOOL P001 TL#(1)\n"));
+}
+
 TEST_CASE("a position variable is followed until an instruction of the job or a called job may change it") {
   const std::string positions = jbi_positions_text + "P00100=5.000,0.000,0.000,180.0000,0.0000,0.0000\n";
   const auto left_alone = [&](const std::string& instructions) {
