@@ -92,17 +92,23 @@ void add_flow(std::string_view text, const RobotLine& line, TpFile& found) {
   if (found.first_jump == 0 && label != std::string::npos && label > 0) found.first_jump = line.line;
 }
 
-/// The numbers of the lines. A line without a number is not counted.
+/// The numbers of the lines. A line without a number is not counted. Numbers may be left out.
 struct Numbering {
-  long last = 0;
+  long count = 0, last = 0;
   bool in_order = true;
 
   void add(std::string_view text, const RobotLine& line) {
     const auto number = tp_line_number(text, line.span);
     if (!number || empty(number->digits)) return;
     const auto value = tp_integer(text, number->digits.begin);
-    in_order = in_order && value && value->value == last + 1;
-    ++last;
+    in_order = in_order && value && value->value > last;
+    if (in_order) last = value->value;
+    ++count;
+  }
+
+  /// Whether LINE_COUNT counts these lines.
+  bool is_count(std::string_view digits) const {
+    return in_order && (digits == std::to_string(count) || digits == std::to_string(last));
   }
 };
 
@@ -139,9 +145,8 @@ TpFile tp_file(const std::string& file, std::string_view text) {
       add_flow(text, line, found);
     }
   }
-  found.numbered = numbering.in_order && numbering.last > 0;
-  if (found.line_count &&
-      (!found.numbered || part(text, *found.line_count) != std::to_string(numbering.last)))
+  found.numbered = numbering.in_order && numbering.count > 0;
+  if (found.line_count && (!found.numbered || !numbering.is_count(part(text, *found.line_count))))
     found.line_count.reset();
   return found;
 }

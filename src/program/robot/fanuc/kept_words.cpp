@@ -4,14 +4,15 @@
 #include <string_view>
 #include <vector>
 
+#include "program/robot/fanuc/lex.hpp"
 #include "program/robot/kept_words.hpp"
 #include "program/text/lex.hpp"
 
 namespace counterflex {
 namespace {
 
-// The statement without the numbers of its lines and of its positions. A 'C' that became a line has
-// one position.
+// The statement in upper case, without the numbers of its lines and of its positions. A 'C' that became a
+// line has one position.
 std::string tp_statement(std::string_view block) {
   std::string text;
   for (std::size_t at = 0; at < block.size();) {
@@ -19,7 +20,7 @@ std::string tp_statement(std::string_view block) {
     std::string_view line = block.substr(at, end - at);
     if (const std::size_t colon = line.find(':'); colon != std::string_view::npos)
       line.remove_prefix(colon + 1);
-    text += without_spaces(line);
+    text += tp_word(line);
     at = end + 1;
   }
   for (std::size_t at = 0; (at = text.find("P[", at)) != std::string::npos; at += 2) {

@@ -151,7 +151,8 @@ std::optional<TpOperand> tp_operand(std::string_view text, Span word) {
 
 std::vector<TpOperand> tp_positions_in(std::string_view text, Span code) {
   std::vector<TpOperand> found;
-  for (std::size_t at = code.begin; (at = text.find("P[", at)) < code.end; ++at) {
+  for (std::size_t at = code.begin; (at = text.find_first_of("Pp", at)) < code.end; ++at) {
+    if (at + 1 >= code.end || text[at + 1] != '[') continue;
     if (at > code.begin && (is_identifier_character(text[at - 1]) || text[at - 1] == '.')) continue;
     if (auto operand = tp_operand(text, {at, code.end})) found.push_back(std::move(*operand));
   }

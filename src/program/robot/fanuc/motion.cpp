@@ -15,8 +15,8 @@ namespace {
 constexpr auto copied_options =
     std::to_array<std::string_view>({"ACC", "PTH", "EV", "IND.EV", "MROT", "BREAK"});
 /// Options that act once, at the end of the motion.
-constexpr auto single_options = std::to_array<std::string_view>(
-    {"ARC", "WELD", "START", "END", "AP_LD", "RT_LD", "CD", "CR", "ORNT_BASE"});
+constexpr auto single_options =
+    std::to_array<std::string_view>({"ARC", "WELD", "START", "END", "AP_LD", "RT_LD", "ORNT_BASE"});
 /// The rest of the statement is an action at the end of the motion: "TB .50sec,CALL GRIP".
 constexpr auto timed_options = std::to_array<std::string_view>({"TA", "TB", "DB"});
 /// Options that move the tool away from the target, or that end the motion before it.
@@ -84,6 +84,8 @@ bool read_option(std::string_view text, Span word, TpMotion& motion) {
   if (head == "FINE") return true;
   if (head == "CNT") {
     motion.passes = whole != "CNT0";
+  } else if (head == "CD" || head == "CR") {
+    motion.passes = motion.passes || whole != head + "0";
   } else if (is_among(head, displacing_options)) {
     note(motion.refused);
   } else if (is_among(head, timed_options)) {
@@ -91,7 +93,6 @@ bool read_option(std::string_view text, Span word, TpMotion& motion) {
     return false;
   } else if (is_among(head, single_options)) {
     motion.acts_once = true;
-    motion.passes = motion.passes || head == "CD" || head == "CR";
   } else if (head == "WJNT") {
     motion.wrist_joint = true;
   } else if (!is_among(head, copied_options)) {

@@ -26,7 +26,7 @@ using TpPositions = std::map<long, TpPosition>;
 struct TpFile {
   TpPositions positions;
   bool computed_index = false;                  ///< a statement uses P[R[1]]: any position may be meant
-  bool numbered = false;                        ///< the numbers of the lines of /MN are 1, 2, 3, ...
+  bool numbered = false;                        ///< the numbers of the lines of /MN increase
   std::optional<Span> line_count{};             ///< the number of LINE_COUNT, if it is that of the last line
   std::map<std::optional<long>, int> frames{};  ///< line of the last UFRAME[n]=...; empty: of any n
   int first_jump = 0;                           ///< line of the first jump to a label; 0: none

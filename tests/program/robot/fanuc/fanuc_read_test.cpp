@@ -295,7 +295,7 @@ TEST_CASE("the positions behind a label, a call and in a loop are not known") {
 
 TEST_CASE("a motion with a word that acts at its end or gives its time is not split") {
   for (const char* words :
-       {"5.0sec CNT50", "500msec CNT50", "9mm/sec CNT50 TB .50sec,CALL GRIP", "9mm/sec CD20",
+       {"5.0sec CNT50", "500msec CNT50", "9mm/sec CNT50 TB .50sec,CALL GRIP", "9mm/sec FINE", "9mm/sec CR0",
         "9mm/sec CNT50 DB 10mm,DO[1]=ON", "9mm/sec CNT50 Arc End[1]", "R[3]sec CNT50"}) {
     CAPTURE(words);
     const Program program =
@@ -305,7 +305,8 @@ TEST_CASE("a motion with a word that acts at its end or gives its time is not sp
     CHECK(!program.moves[1].may_jump);
   }
   for (const char* words : {"9mm/sec CNT50 ACC 80", "9mm/sec CNT R[2] PTH", "9 mm/sec CNT50 EV50%",
-                            "R[3]mm/sec CNT50", "WELD_SPEED CNT100 PTH", "30deg/sec CNT50"}) {
+                            "R[3]mm/sec CNT50", "WELD_SPEED CNT100 PTH", "30deg/sec CNT50", "9mm/sec CD20",
+                            "9mm/sec CR5 ACC80", "9mm/sec CNT100 CR5", "9mm/sec cnt50"}) {
     CAPTURE(words);
     const Program program =
         read_tp_statements("L P[1] 9mm/sec CNT50 ;\nL P[2] " + std::string(words) + " ;\n");

@@ -1,6 +1,7 @@
 // Programs of FANUC robots: writing of corrected positions.
 #include <doctest/doctest.h>
 
+#include "counterflex/program/kept_words.hpp"
 #include "counterflex/program/size_limit.hpp"
 #include "program/robot/fanuc/fanuc.hpp"
 
@@ -128,8 +129,40 @@ TEST_CASE("numbers of lines that are not in order stay, as does a LINE_COUNT tha
   text.replace(text.find("LINE_COUNT\t= 6"), 14, "LINE_COUNT\t= 4");
   CHECK(inserted().find("LINE_COUNT\t= 4;\n") != std::string::npos);
   CHECK(inserted().find("   7:L P[2]") != std::string::npos);
-  text.replace(text.find("   6:L"), 6, "  60:L");
-  CHECK(inserted().find("  60:L P[2]") != std::string::npos);
+  text.replace(text.find("   6:L"), 6, "   2:L");
+  CHECK(inserted().find("   5:  R[1]") != std::string::npos);
+  CHECK(inserted().find("   2:L P[2] 20mm/sec CNT100    ;\n/POS") != std::string::npos);
+}
+
+TEST_CASE("lines whose numbers have gaps are numbered without gaps where a line is inserted") {
+  for (const char* count : {"6", "60"}) {
+    std::string text = tp_program(tp_job, tp_square());
+    text.replace(text.find("   6:L"), 6, "  60:L");
+    text.replace(text.find("LINE_COUNT\t= 6"), 14, std::string("LINE_COUNT\t= ") + count);
+    const Program program = read_tp(text);
+    CHECK(unchanged(program) == text);
+    std::vector<MoveEdit> edits = robot_edits(program);
+    edits[2].inserted = {{{25, 0, 0.5}, {}, OrientationNumbers{180, 0, 2.5}}};
+    const std::string written = rewrite(program, edits, {}).text;
+    CHECK(written.find("   7:L P[2]") != std::string::npos);
+    CHECK(written.find("LINE_COUNT\t= 7;\n") != std::string::npos);
+  }
+}
+
+TEST_CASE("a statement in lower case is written as one in upper case") {
+  std::string text = tp_program(tp_job, tp_square());
+  text.replace(text.find("L P[2] 20mm/sec"), 15, "l p[2] 20mm/sec");
+  const Program program = read_tp(text);
+  CHECK(unchanged(program) == text);
+  std::vector<MoveEdit> edits = robot_edits(program);
+  for (MoveEdit& edit : edits) edit.end_mm.z() += 0.5;
+  edits.back().end_mm.z() += 0.5;
+  const Program again = read_tp(rewrite(program, edits, {}).text);
+  REQUIRE(again.moves.size() == program.moves.size());
+  for (std::size_t m = 0; m < edits.size(); ++m) {
+    CHECK(again.moves[m].end_mm == edits[m].end_mm);
+    CHECK(kept_words(again, again.moves[m]) == kept_words(program, program.moves[m]));
+  }
 }
 
 TEST_CASE("C is written with its auxiliary point, and as lines without it") {
