@@ -20,14 +20,19 @@ void add_tool(std::vector<long>& tools, long tool) {
   if (at == tools.end() || *at != tool) tools.insert(at, tool);
 }
 
-/// Fast path: most moves have the tool and the offset of the move before.
+/// Whether the frame of a move matters: a coordinate of its start or its end is known.
+bool has_place(const Move& move) {
+  const auto is_known = [](bool known) { return known; };
+  return std::ranges::any_of(move.known_start, is_known) || std::ranges::any_of(move.known_end, is_known);
+}
+
+/// Fast path: most moves have the tool of the move before.
 void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
   const Move* before = nullptr;
   for (const Move& move : moves) {
-    if (before == nullptr || move.tool != before->tool || move.frame != before->frame) {
-      if (overview.frame_lines[move.frame] == 0) overview.frame_lines[move.frame] = move.line;
-      add_tool(overview.tools, move.tool);
-    }
+    int& frame_line = overview.frame_lines[move.frame];
+    if (frame_line == 0 && has_place(move)) frame_line = move.line;
+    if (before == nullptr || move.tool != before->tool) add_tool(overview.tools, move.tool);
     before = &move;
   }
 }

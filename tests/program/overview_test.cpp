@@ -89,6 +89,16 @@ TEST_CASE("an overview summarises the whole program") {
   CHECK(overview.first_cycle_line == 11);
 }
 
+TEST_CASE("a frame is used by the first move in it that has a known coordinate") {
+  const auto lines = [](const std::string& text, const char* file) {
+    return overview_of(read_program(text, file, {})).frame_lines;
+  };
+  const std::string move = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  CHECK(lines("DEF job()\nINI\n$BASE=BASE_DATA[1]\n" + move + "END\n", "job.src") == std::vector<int>{0, 4});
+  CHECK(lines("DEF job()\nINI\n" + move + "INI\nEND\n", "job.src") == std::vector<int>{3});
+  CHECK(lines("DEF job()\nINI\nEND\n", "job.src") == std::vector<int>{0});
+}
+
 TEST_CASE("an overview has the first feed move without a tool number; rapids need no tool") {
   CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z0\nG1 X1 F100\nT1 M6\nG1 X2\n")).first_cut_without_tool == 2);
   CHECK(overview_of(read("G21 G90 G0 X0 Y0 Z5\nG99 G81 X1 Z-1 R1 F100\n")).first_cut_without_tool == 2);

@@ -24,8 +24,9 @@ struct Overview {
   int lines = 0;               ///< `text_lines`, or the line of the last move if that is larger
   long last_block_number = 0;  ///< the largest N of a move
   std::vector<ProgramFrame> frames{{}};
-  std::vector<int> frame_lines;  ///< line of the first move in the frame, by index into `frames`; 0: none
-  std::vector<long> tools;       ///< in the spindle during a move, each once, ascending; 0: unknown
+  /// Line of the first move in the frame with a known coordinate, by index into `frames`; 0: none.
+  std::vector<int> frame_lines;
+  std::vector<long> tools;  ///< in the spindle during a move, each once, ascending; 0: unknown
   std::vector<Remark> remarks;
   std::vector<PathTolerance> path_tolerances;
   Capped<LeftAlone> left_alone;         ///< without the machine positions

@@ -78,8 +78,11 @@ void refuse_tool_axis(const Run& run) {
 /// Warns of orientations that the machine controls but a program of X, Y and Z does not state.
 void warn_of_orientation(Run& run) {
   const Machine& machine = run.machine.machine;
-  if (run.program.turns_tool || std::none_of(machine.controlled.begin(), machine.controlled.end(),
-                                             [](Component c) { return c > Component::z; }))
+  const auto& lines = run.program.frame_lines;
+  const bool has_places = std::ranges::any_of(lines, [](int line) { return line > 0; });
+  if (!has_places || run.program.turns_tool ||
+      std::none_of(machine.controlled.begin(), machine.controlled.end(),
+                   [](Component c) { return c > Component::z; }))
     return;
   run.facts.warnings.push_back(
       {0,
