@@ -312,6 +312,7 @@ void read_statement(const Block& block, Reading& r) {
 void interpret(const Block& block, Reading& r) {
   apply_comments(block, r);
   remark_length(block, r);
+  if (r.dialect.sinumerik_words) note_declarations(block, r);
   if (!has_content(block)) return;
   if (!r.dialect.sinumerik_words) apply_variables(block, r);
   if (!empty(block.flow_keyword)) {
@@ -323,7 +324,8 @@ void interpret(const Block& block, Reading& r) {
     refuse(r.program.file, block, block.flow_keyword.begin,
            "words are not allowed before a condition, a loop or a call");
   }
-  if (block.statement != Statement::none) return read_statement(block, r);
+  const bool has_statement = block.statement != Statement::none || assigns_to_word(block, r);
+  if (has_statement) return read_statement(block, r);
   if (block.words.empty() && block.speed_words.empty()) return;
   ++r.program.block_count;
   read_with_own_modes(block, r);

@@ -62,10 +62,36 @@ void state(Scanner& s, Statement statement) {
   s.block.statement_text = {begin, s.at};
 }
 
+/// "PROC POCKET(REAL WIDTH, VAR INT COUNT=3)": the parameters, whose values are not known.
+void lex_parameters(Scanner& s) {
+  while (s.at < s.end && s.peek() != '(' && s.peek() != ';') ++s.at;
+  const std::size_t end = std::min(s.text.find(')', s.at), s.end);
+  while (s.at < end && s.peek() != ';') {
+    const std::size_t begin = ++s.at;
+    s.skip_blanks();
+    Span type{s.at, s.at + siemens_name_at(s).size()};
+    if (is_word(part(s.text, type), "VAR")) {
+      s.at = type.end;
+      s.skip_blanks();
+      type = {s.at, s.at + siemens_name_at(s).size()};
+    }
+    s.at = type.end;
+    s.skip_blanks();
+    const Span name{s.at, s.at + siemens_name_at(s).size()};
+    while (s.at < end && s.peek() != ',') ++s.at;
+    if (!empty(name)) s.block.assignments.push_back({name, {begin, s.at}, type});
+  }
+  skip_siemens_rest(s);
+}
+
 bool lex_structure(Scanner& s, std::string_view name) {
   if (!is_siemens_structure(name)) return false;
   Span keyword{s.at, s.at + name.size()};
   s.at = keyword.end;
+  if (is_word(name, "PROC")) {
+    lex_parameters(s);
+    return true;
+  }
   s.skip_blanks();
   const bool alone = s.at == s.end || s.peek() == ';';
   const std::size_t rest = s.at;
@@ -73,7 +99,7 @@ bool lex_structure(Scanner& s, std::string_view name) {
   const bool jump = siemens_jumps(s.text.substr(rest, s.at - rest));
   // A part that is repeated by labels makes the whole program a body, as jumps do.
   const bool repeats_part = is_word(name, "REPEATB") || (is_word(name, "REPEAT") && !alone);
-  if (!jump && !repeats_part && !is_word(name, "PROC")) s.block.flow_keyword = keyword;
+  if (!jump && !repeats_part) s.block.flow_keyword = keyword;
   return true;
 }
 
@@ -159,16 +185,20 @@ bool lex_indexed_parameter(Scanner& s, std::string_view name) {
 }
 
 /// "_DEPTH=5", "MEAS=1", "$AC_TIMER[1]=0": a variable or a word of the control. Other effects of the block
-/// are unknown.
+/// are unknown. "DIAMONA[X]" without '=' is a word of the control.
 void skip_named_assignment(Scanner& s, std::string_view name) {
-  s.block.assigns = s.block.assigns_by_name = true;
   const std::size_t begin = s.at;
   s.at += name.size();
   s.skip_blanks();
   if (s.peek() == '[') skip_siemens_index(s);
   const Span variable{begin, s.at};
   s.skip_blanks();
-  if (s.peek() == '=') take_assigned(s, variable);
+  if (s.peek() != '=') {
+    s.at = begin;
+    return state(s, Statement::call);
+  }
+  s.block.assigns = s.block.assigns_by_name = true;
+  take_assigned(s, variable);
 }
 
 bool equals_follows(const Scanner& s, std::size_t behind) {

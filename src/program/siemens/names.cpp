@@ -48,20 +48,23 @@ constexpr std::array siemens_names{
 };
 
 constexpr std::array harmless_names{
-    "MSG",       "STOPRE",   "FFWON",     "FFWOF",       "SOFT",      "BRISK",   "DRIVE",      "CUT2D",
-    "CUT2DF",    "COMPOF",   "NORM",      "KONT",        "KONTC",     "KONTT",   "FGROUP",     "FGREF",
-    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",        "SPCON",     "SPCOF",   "SETMS",      "DISPLOF",
-    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",       "UPATH",     "SPATH",   "CFC",        "CFTCP",
-    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF",     "DYNNORM",   "DYNPOS",  "DYNROUGH",   "DYNSEMIFIN",
-    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",      "ORIWKS",    "ORIMKS",  "ORIAXES",    "ORIVECT",
-    "CTOL",      "OTOL",     "ATOL",      "OVR",         "OVRA",      "OVRRAP",  "FL",         "FA",
-    "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",     "ADIS",       "ADISPOS",
-    "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",  "RTLIOF",     "DEF",
-    "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",    "GOTOF",      "GOTOB",
-    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC", "FNORM",      "CPRECON",
-    "CPRECOF",   "WAITM",    "WAITMC",    "WAITE",       "WAITS",     "SETM",    "CLEARM",     "SETAL",
-    "STARTFIFO", "STOPFIFO", "SPOSA",     "SOFTA",       "BRISKA",    "DRIVEA",  "DELAYFSTON", "DELAYFSTOF",
+    "MSG",       "STOPRE",   "FFWON",     "FFWOF",       "SOFT",      "BRISK",    "DRIVE",      "CUT2D",
+    "CUT2DF",    "COMPOF",   "NORM",      "KONT",        "KONTC",     "KONTT",    "FGROUP",     "FGREF",
+    "FTOCON",    "FTOCOF",   "WORKPIECE", "SPOS",        "SPCON",     "SPCOF",    "SETMS",      "DISPLOF",
+    "DISPLON",   "SAVE",     "SBLOF",     "SBLON",       "UPATH",     "SPATH",    "CFC",        "CFTCP",
+    "CFIN",      "FIFOCTRL", "WALIMON",   "WALIMOF",     "DYNNORM",   "DYNPOS",   "DYNROUGH",   "DYNSEMIFIN",
+    "DYNFINISH", "DYNPREC",  "ORISOF",    "ORISON",      "ORIWKS",    "ORIMKS",   "ORIAXES",    "ORIVECT",
+    "CTOL",      "OTOL",     "ATOL",      "OVR",         "OVRA",      "OVRRAP",   "FL",         "FA",
+    "FRC",       "FRCM",     "FB",        "FZ",          "SCC",       "SVC",      "ADIS",       "ADISPOS",
+    "DISC",      "ACC",      "LIMS",      "VELOLIM",     "JERKLIM",   "RTLION",   "RTLIOF",     "DEF",
+    "DEFINE",    "EXTERN",   "PROC",      "GROUP_BEGIN", "GROUP_END", "GOTO",     "GOTOF",      "GOTOB",
+    "GOTOC",     "GOTOS",    "CASE",      "SPINDLE",     "SYNFCT",    "STOPREC",  "FNORM",      "CPRECON",
+    "CPRECOF",   "WAITM",    "WAITMC",    "WAITE",       "WAITS",     "SETM",     "CLEARM",     "SETAL",
+    "STARTFIFO", "STOPFIFO", "SPOSA",     "SOFTA",       "BRISKA",    "DRIVEA",   "DELAYFSTON", "DELAYFSTOF",
+    "FINEA",     "COARSEA",  "IPOENDA",   "IPOBRKA",     "ACCLIMA",   "VELOLIMA", "JERKLIMA",   "SCPARA",
 };
+
+constexpr std::array tool_offset_names{"TOFF", "TOFFL", "TOFFR", "TOFFLR", "TCARR", "DL"};
 
 constexpr std::array speed_names{"FB", "FZ", "OVR", "SVC", "SETMS", "SPOS", "SPOSA"};
 
@@ -120,6 +123,10 @@ bool is_siemens_structure(std::string_view name) {
 
 bool is_position_name(std::string_view name) {
   return is_one_of(name, position_names);
+}
+
+bool is_tool_offset_name(std::string_view name) {
+  return is_one_of(name, tool_offset_names);
 }
 
 bool is_siemens_operator(std::string_view name) {

@@ -23,8 +23,11 @@ bool is_harmless_variable(std::string_view name);
 /// IF, WHILE, REPEAT and the other words of conditions and loops.
 bool is_siemens_structure(std::string_view name);
 
-/// Whether an assignment to the name affects moves. Other names before '=' are variables.
+/// Whether an assignment to the name affects moves: AP, POS.
 bool is_position_name(std::string_view name);
+
+/// Whether an assignment to the name changes the offset of the tool: TOFFL, DL, TCARR.
+bool is_tool_offset_name(std::string_view name);
 
 /// DIV, AND and the other operators that are words.
 bool is_siemens_operator(std::string_view name);

@@ -88,9 +88,14 @@ bool ends_with_work_offset(std::string_view name) {
   return is_word(name, "$P_IFRAME") || is_word(name.substr(0, 4), "$TC_");
 }
 
+/// "AX" of "AX[X]".
+std::string_view name_of(std::string_view variable) {
+  return variable.substr(0, variable.find_first_of(" \t["));
+}
+
 /// Coordinates may change until a statement sets them: a work offset, TRANS; for other variables to the end.
 void set_control_variable(const Block& block, Reading& r, std::string_view variable) {
-  const std::string_view name = variable.substr(0, variable.find_first_of(" \t["));
+  const std::string_view name = name_of(variable);
   if (is_word(name, "$P_PFRAME")) return displace_by_statement(block, r, framed);
   r.state.unknown_modes |= unknown_offset;
   r.state.known.fill(false);
@@ -105,10 +110,46 @@ void set_control_variables(const Block& block, Reading& r) {
   if (block.assignments.empty()) set_control_variable(block, r, {});
   for (const Assignment& assignment : block.assignments)
     if (const std::string_view variable = part(text, assignment.variable);
-        variable.starts_with('$') &&
-        !is_harmless_variable(variable.substr(0, variable.find_first_of(" \t["))))
+        variable.starts_with('$') && !is_harmless_variable(name_of(variable)))
       set_control_variable(block, r, variable);
   note_uncorrected(block, r, "a variable of the control is set");
+}
+
+/// Variables of the control are `Statement::data`. Words of one letter, as R1= and H1=, have their meaning
+/// from `lex_siemens`. No word of the control begins with '_'.
+bool is_variable(std::string_view name, const Reading& r) {
+  const bool letter = name.find_first_not_of("0123456789", 1) == std::string_view::npos;
+  return letter || name[0] == '_' || name[0] == '$' || r.declared.contains(upper_case(name));
+}
+
+/// Names before '=' that are not variables.
+std::vector<std::string_view> assigned_words(const Block& block, const Reading& r) {
+  std::vector<std::string_view> words;
+  for (const Assignment& assignment : block.assignments)
+    if (const auto name = name_of(part(r.program.text, assignment.variable));
+        empty(assignment.type) && !is_variable(name, r))
+      words.push_back(name);
+  return words;
+}
+
+/// The next moves reach their positions with another offset of the tool.
+void change_tool_offset(const Block& block, Reading& r, std::string_view name) {
+  r.state.known.fill(false);
+  r.state.tool_length.reset();
+  r.state.tool_length_mm.reset();
+  end_contour(r);
+  note_uncorrected(block, r, fmt::format("'{}' changes the offset of the tool by an unknown length", name));
+}
+
+void apply_assigned_words(const Block& block, Reading& r) {
+  for (const std::string_view name : assigned_words(block, r)) {
+    if (is_tool_offset_name(name)) {
+      change_tool_offset(block, r, name);
+      continue;
+    }
+    r.sorted = {};
+    return read_unknown_word(block, r, name);
+  }
 }
 
 /// "L700", and SPINDLE of CALL "SPINDLE" and EXTCALL("SPINDLE"). Empty beside words of a motion.
@@ -156,6 +197,16 @@ void run_cycle(const Block& block, Reading& r) {
 
 }  // namespace
 
+void note_declarations(const Block& block, Reading& r) {
+  for (const Assignment& assignment : block.assignments)
+    if (!empty(assignment.type))
+      r.declared.insert(upper_case(name_of(part(r.program.text, assignment.variable))));
+}
+
+bool assigns_to_word(const Block& block, const Reading& r) {
+  return r.dialect.sinumerik_words && block.assigns_by_name && !assigned_words(block, r).empty();
+}
+
 void begin_statement(const Block& block, Reading& r) {
   if (block.statement == Statement::curve) r.state.unknown_modes |= unknown_motion;
 }
@@ -171,6 +222,8 @@ bool has_words_of_its_own(const Block& block, const Reading&) {
 }
 
 void end_statement(const Block& block, Reading& r) {
+  // A block that is not read makes the position unknown by itself.
+  if (block.assigns_by_name && block.statement != Statement::not_read) apply_assigned_words(block, r);
   switch (block.statement) {
     case Statement::call:
       return call_subprogram(block, r);

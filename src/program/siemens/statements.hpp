@@ -4,6 +4,12 @@
 
 namespace counterflex {
 
+/// Stores the names that DEF and PROC declare.
+void note_declarations(const Block& block, Reading& r);
+
+/// Whether the block assigns a value to a name that is not a variable. It may move axes.
+bool assigns_to_word(const Block& block, const Reading& r);
+
 /// States that already apply to the words of the block.
 void begin_statement(const Block& block, Reading& reading);
 

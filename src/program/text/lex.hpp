@@ -53,7 +53,7 @@ struct Word {
 /// "#5=#1+2", "R1=5", "_DEPTH=-3".
 struct Assignment {
   Span variable, value;
-  Span type{};  ///< of DEF: INT, REAL
+  Span type{};  ///< of DEF and PROC: INT, REAL
 };
 
 /// A word of a Sinumerik that sets a feed or a speed by name: "S1=4000", "FB=100", "OVR=50", "SETMS(2)".

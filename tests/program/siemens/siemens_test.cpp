@@ -346,6 +346,48 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("siemens: an assignment alone to a name that is not a variable may move any axis") {
+  for (const char* const line :
+       {"AX[X]=15", "N10 AX[X]=15", "POSP[X]=(5,1,1)", "OS[X]=1", "MOVT=5", "POLY PO[X]=(15,1,2)",
+        "PO[X]=(15,1,2) PO[Y]=(5,2)", "CPLON[Y]=X CPLNUM[Y,X]=2", "CPON=X", "DIAMONA[X]", "DIAM90A[X]",
+        "DIAMCHANA[X]", "DIACYCOFA[X]", "USER_DATA=5", "_A=5 MOVT=5"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nY50\n");
+    REQUIRE(program.moves.size() == 3);
+    CHECK(program.moves[1].fixed == std::array{true, true, true});
+    CHECK(program.moves[2].fixed[1]);
+    CHECK_FALSE(program.left_alone.empty());
+  }
+}
+
+TEST_CASE("siemens: an assignment alone to a variable moves no axis") {
+  for (const char* const line : {"_DEPTH=5", "R1=5 R[2]=R1", "H1=3", "S1=300 M1=3", "LIMS=2000", "FINEA[X]",
+                                 "DEF REAL DEPTH=3,WIDTH[2]\nDEPTH=2 width[1]=5",
+                                 "PROC PART(REAL DEPTH,VAR INT COUNT)\nDEPTH=2 COUNT=1", "$AC_TIMER[1]=0",
+                                 "SPOS[1]=90", "TRANS\n_GUD[1,2]=5"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\n");
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].may_split);
+    CHECK(program.left_alone.empty());
+  }
+  ReadOptions options{.dialect = "siemens", .unit = LengthUnit::millimetres};
+  options.harmless_calls = {"USER_DATA"};
+  const Program stated =
+      read_program(std::string(siemens_start) + "USER_DATA=5\nG1 X5 F100\n", "p.mpf", options);
+  CHECK(stated.moves.back().may_split);
+}
+
+TEST_CASE("siemens: behind a change of the tool offset the position is not known") {
+  for (const char* const line : {"TOFF[Z]=1", "TOFFL=1", "TOFFLR=1", "TCARR=1", "DL=1"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\nX6 Y0 Z3\nX7\n");
+    REQUIRE(program.moves.size() == 4);
+    CHECK_FALSE(program.moves[1].known_end[2]);
+    CHECK(program.moves[3].may_split);
+  }
+}
+
 TEST_CASE("siemens: words behind a value that moves no axis are read") {
   for (const char* const line :
        {"CTOL=0.01 G1 X20 F100", "FL[X]=1000 G1 X20 F100", "OVRA[X]=50 G1 X20 F100", "FRC=100 G1 X20 F100",

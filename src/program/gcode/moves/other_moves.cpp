@@ -132,29 +132,43 @@ std::uint16_t modes_of(const Dialect& dialect) {
   return static_cast<std::uint16_t>(modes);
 }
 
-}  // namespace
-
-void read_call(const Block& block, Reading& r, std::string_view program) {
-  r.variables.clear();
-  const bool is_own = r.outline.own_programs.contains(upper_case(program));
-  if (!is_own && is_stated_harmless(r.program, r.options, block.line, program)) return;
+/// The block may move any axis and set modal states, but not coordinates.
+void leave_to_control(const Block& block, Reading& r, std::string_view why) {
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
-  std::string why(why_not_expanded(r.program.expansion, block.text_line));
-  if (!why.empty()) why = ", not expanded: " + why;
-  if (!r.options.expand_subprograms && may_expand(r.dialect))
-    why = " (--expand-subprograms replaces the call by its text)";
-  const std::string_view word = word_not_read(block, r);
-  note_uncorrected(
-      block, r, word.empty() ? "a subprogram is called" + why : fmt::format("'{}' is not supported", word));
+  note_uncorrected(block, r, why);
   finish_move(r, move);
   end_contour(r);
   forget_speeds(r.state);
   constexpr std::uint16_t not_assumed =
       unknown_motion | unknown_distance | unknown_plane | unknown_centres | unknown_level;
   r.state.unknown_modes |= static_cast<std::uint16_t>(not_assumed & modes_of(r.dialect));
+}
+
+}  // namespace
+
+void read_call(const Block& block, Reading& r, std::string_view program) {
+  r.variables.clear();
+  const bool is_own = r.outline.own_programs.contains(upper_case(program));
+  if (!is_own && is_stated_harmless(r.program, r.options, block.line, program)) return;
+  std::string why(why_not_expanded(r.program.expansion, block.text_line));
+  if (!why.empty()) why = ", not expanded: " + why;
+  if (!r.options.expand_subprograms && may_expand(r.dialect))
+    why = " (--expand-subprograms replaces the call by its text)";
+  const std::string_view word = word_not_read(block, r);
+  leave_to_control(
+      block, r, word.empty() ? "a subprogram is called" + why : fmt::format("'{}' is not supported", word));
   if (word.empty()) assume_of_calls(r.program, block.line);
+}
+
+void read_unknown_word(const Block& block, Reading& r, std::string_view name) {
+  r.variables.clear();
+  if (is_stated_harmless(r.program, r.options, block.line, name)) return;
+  leave_to_control(block, r,
+                   fmt::format("'{}=' is not supported; a variable needs DEF in this program, or its name in "
+                               "harmless_calls of the machine file",
+                               name));
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {

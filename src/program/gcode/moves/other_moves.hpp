@@ -26,6 +26,9 @@ void read_pocket(const Block& block, Reading& reading);
 /// The call of a subprogram or macro: it may move all axes and set all states.
 void read_call(const Block& block, Reading& reading, std::string_view program);
 
+/// An assignment of a Sinumerik to a name that is not known: it may be a word that moves an axis.
+void read_unknown_word(const Block& block, Reading& reading, std::string_view name);
+
 /// A block with an unknown effect: all states and the position are unknown afterwards.
 void read_anything(const Block& block, Reading& reading, std::string_view why);
 
