@@ -59,6 +59,8 @@ void forget_state(ModalState& state) {
   state.known.fill(false);
   state.unknown_modes = all_unknown_modes;
   state.displaced = 0;
+  state.mirrored_axes = 0;
+  state.modal_macros = 0;
   forget_speeds(state);
 }
 
@@ -210,6 +212,8 @@ void mark_differences_unknown(const Dialect& dialect, const ModalState& before, 
   now.unknown_modes |= differences(before, now);
   mark_speeds_unknown(before, now);
   now.displaced |= before.displaced;
+  now.mirrored_axes |= before.mirrored_axes;
+  now.modal_macros = std::max(now.modal_macros, before.modal_macros);
   now.displaced |= different_shifts(dialect, before, now);
   now.offsets_set |= before.offsets_set;
   if (now.tool_length != before.tool_length) {

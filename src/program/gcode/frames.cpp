@@ -124,6 +124,18 @@ bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
   return true;
 }
 
+/// G92.1 of shop controls: the named axes have the coordinates of the work offset again, without G92 and G52.
+bool preset(const Block& block, Reading& r) {
+  FrameShifts& shifts = r.state.shifts;
+  if (!is_plain(block, r, "")) r.state.known.fill(false);
+  if (shifts.turn_rad != 0) r.state.displaced |= rotated;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis_word(r, axis) != nullptr)
+      coordinate(shifts.set_mm, axis) = coordinate(shifts.local_mm, axis) = 0;
+  change_frame(r);
+  return true;
+}
+
 bool end_set_position(const Block& block, Reading& r) {
   if (!is_plain(block, r, "")) r.state.known.fill(false);
   r.state.shifts.set_mm.setZero();
@@ -290,6 +302,8 @@ bool apply_frame_code(const Block& block, Reading& r, const GCode& code) {
     case 920:
       return is_plain(block, r, "") && move_zero(block, r, r.state.shifts.set_mm);
     case 921:
+      if (r.dialect.macro_words && r.sorted.has_any("XYZ")) return preset(block, r);
+      return !r.state.shifts.set_mm.isZero(0) && end_set_position(block, r);
     case 922:
       return !r.state.shifts.set_mm.isZero(0) && end_set_position(block, r);
     default:

@@ -107,9 +107,11 @@ struct ModalState {
   long tool = 0;                         ///< in the spindle
   std::optional<Vector6> force;
   std::uint16_t unknown_modes = 0;
-  std::uint16_t displaced = 0;    ///< bits of Displacement
-  std::uint16_t offsets_set = 0;  ///< by G10: a bit for each of G54 to G59.3, the highest for others
-  bool entering_data = false;     ///< between G10 L50 and G11, where blocks are parameters
+  std::uint16_t displaced = 0;      ///< bits of Displacement
+  std::uint32_t mirrored_axes = 0;  ///< letters of the axes of `mirrored`, A in the lowest bit
+  int modal_macros = 0;             ///< number of calls by G66 that act
+  std::uint16_t offsets_set = 0;    ///< by G10: a bit for each of G54 to G59.3, the highest for others
+  bool entering_data = false;       ///< between G10 L50 and G11, where blocks are parameters
   Contour contour = Contour::none;
   int group = 0;                              ///< number of the contour
   CutterSide cutter_side = CutterSide::none;  ///< of the contour, if it is in the plane X Y

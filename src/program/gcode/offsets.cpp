@@ -3,12 +3,14 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "program/evaluate/variables.hpp"
 #include "program/gcode/frames.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
+#include "program/gcode/words/used_letters.hpp"
 
 namespace counterflex {
 namespace {
@@ -19,9 +21,23 @@ const std::string& offset_that_acts(const Reading& r) {
   return r.program.frames[r.state.frame].work_offset;
 }
 
+/// The offset of "G59 P3" of Mach3, whose numbers from 1 to 6 are G54 to G59.
+std::optional<std::string> fixture_name(const Block& block, const Reading& r, const FoundG& offset) {
+  const Word& p = *r.sorted.word('P');
+  if (!p.literal) return std::nullopt;
+  if (offset.code->tenths != 590 || p.value < 1 || p.value > 6 || p.value != std::floor(p.value))
+    refuse_word(block, r, p,
+                fmt::format("G{} P{} selects a work offset that a machine file cannot name: use G54 to G59",
+                            offset.word->value, p.value));
+  return fmt::format("G{}", 53 + count_of(p));
+}
+
 /// "G54", "G59.3", "G54.1 P3" (G154 P3 and G112 of Haas, G54 P3 of Fanuc).
-std::optional<std::string> offset_name(const Reading& r, const FoundG& offset) {
+std::optional<std::string> offset_name(const Block& block, const Reading& r, const FoundG& offset) {
   const Word* p = r.sorted.word('P');
+  if (r.dialect.family == mach3_family && p != nullptr && !r.sorted.has(Action::dwell) &&
+      !r.sorted.has(MAction::call))
+    return fixture_name(block, r, offset);
   if (offset.code->tenths >= 1100 && offset.code->tenths <= 1290)
     return fmt::format("G54.1 P{}", offset.code->tenths / 10 - 109);
   const bool extended = offset.code->tenths == 541 || offset.code->tenths == 1540 ||
@@ -70,9 +86,42 @@ bool is_zero_or_absent(const Word* word) {
   return word == nullptr || (word->literal && word->value == 0);
 }
 
+/// The axes of the block, A in the lowest bit.
+Letters named_axes(const Reading& r) {
+  Letters axes = 0;
+  for (const char letter : std::string_view("ABCUVWXYZ"))
+    if (r.sorted.word(letter) != nullptr) axes |= letter_bit(letter);
+  return axes;
+}
+
+bool is_modal_macro(const GCode& code) {
+  return code.tenths == 660 || code.tenths == 661;
+}
+
+/// G51.1 X0 adds X to the mirrored axes. A G66 under another one acts in addition to it.
+void note_begin(Reading& r, const GCode& code) {
+  if (code.bit == mirrored) r.state.mirrored_axes |= named_axes(r) != 0 ? named_axes(r) : ~Letters{0};
+  if (is_modal_macro(code)) ++r.state.modal_macros;
+}
+
+/// Whether the code ends the displacement of its bit. G50.1 X0 ends the mirror image of X only, G67 the last
+/// G66 only, G92.1 Z0 the position of Z only.
+bool ends_displacement(Reading& r, const GCode& code) {
+  ModalState& state = r.state;
+  if (code.tenths == 670) return --state.modal_macros <= 0;
+  if (code.bit == mirrored) {
+    state.mirrored_axes &= named_axes(r) != 0 ? ~named_axes(r) : Letters{0};
+    return state.mirrored_axes == 0;
+  }
+  constexpr Letters linear = letter_bit('X') | letter_bit('Y') | letter_bit('Z');
+  const bool presets = code.tenths == 921 && r.dialect.macro_words && named_axes(r) != 0;
+  return !presets || (named_axes(r) & linear) == linear;
+}
+
 void end_displacements(Reading& r) {
   for (const FoundG& g : r.sorted.g) {
     if (g.code->action != Action::end_displace || (r.state.displaced & g.code->bit) == 0) continue;
+    if (!ends_displacement(r, *g.code)) continue;
     r.state.displaced &= static_cast<std::uint16_t>(~g.code->bit);
     r.state.known.fill(false);
   }
@@ -118,7 +167,7 @@ bool sets_tools(const Word* l) {
 void apply_work_offset(const Block& block, Reading& r) {
   const FoundG* offset = r.sorted.find(Action::work_offset);
   if (offset == nullptr) return;
-  const std::optional<std::string> name = offset_name(r, *offset);
+  const std::optional<std::string> name = offset_name(block, r, *offset);
   if (!name) {
     r.state.unknown_modes |= unknown_offset;
     r.state.known.fill(false);
@@ -192,7 +241,7 @@ void apply_displacements(const Block& block, Reading& r) {
       followed = true;
       continue;
     }
-    if (g.code->action == Action::displace) add_displacement(block, r, g.code->bit);
+    if (g.code->action == Action::displace) note_begin(r, *g.code), add_displacement(block, r, g.code->bit);
     if (g.code->bit == unknown) r.state.displaced |= unknown, end_contour(r);
   }
   if (r.sorted.has(Action::shift) && !followed) {
@@ -233,7 +282,8 @@ void apply_set_data(const Block& block, Reading& r) {
   if (!sets_offset(l)) return;
   const Word* p = r.sorted.word('P');
   const bool clear = p != nullptr && p->literal && l->value == 2 && p->value >= 1 && p->value <= 9;
-  if (p != nullptr && p->literal && p->value == 0) {
+  const bool of_active = (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
+  if (p != nullptr && p->literal && p->value == 0 && of_active) {
     r.state.offsets_set |= offset_bit(offset_that_acts(r));
   } else {
     r.state.offsets_set =
@@ -257,19 +307,32 @@ void apply_parameter(const Block& block, Reading& r) {
     lose_offsets(block, r, "a parameter sets a work offset");
 }
 
+namespace {
+
+/// G5.1 Q2 X0 Y0 of Fanuc: the axes of smooth interpolation. They do not move.
+bool selects_axes(const Reading& r, const FoundG& smooth) {
+  const Word* q = r.sorted.word('Q');
+  return smooth.code->tenths == 51 && q != nullptr && q->literal && (q->value == 2 || q->value == 3);
+}
+
+}  // namespace
+
 bool takes_axis_words(const Reading& r) {
   if (r.state.entering_data) return true;
-  return std::any_of(r.sorted.g.begin(), r.sorted.g.end(), [](const FoundG& g) {
+  return std::any_of(r.sorted.g.begin(), r.sorted.g.end(), [&](const FoundG& g) {
     switch (g.code->action) {
       case Action::set_data:
       case Action::shift:
       case Action::limits:
         return true;
+      case Action::smooth:
+        return selects_axes(r, g);
       case Action::displace:
         return g.code->bit != tool_point && g.code->bit != polar;
       default:
         return g.code->tenths == 220 || g.code->tenths == 281 || g.code->tenths == 301 ||
-               g.code->tenths == 431 || g.code->tenths == 501;
+               g.code->tenths == 431 || g.code->tenths == 501 || g.code->tenths == 1000 ||
+               (g.code->tenths == 921 && r.dialect.macro_words);
     }
   });
 }

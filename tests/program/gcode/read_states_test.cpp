@@ -261,3 +261,95 @@ TEST_CASE("comments may be nested and N may be anywhere if the control allows it
   CHECK(read("O1\nG21 G0 X1. (A (B C) N5\nN7 X2.\n").moves.size() == 2);
   CHECK(read("G21 G0 X1 N5 (no end\n", "grbl").moves.at(0).block_number == 5);
 }
+
+TEST_CASE(
+    "the end of a mirror image, of a modal call or of a position is that of the named axes or call only") {
+  const auto followed = [](const std::string& blocks, const char* dialect = "fanuc") {
+    const Program program = read(known_start_block + blocks + "\nX2. Y2. Z2.\nX3.\n", dialect);
+    return !stays(program.moves.back());
+  };
+  CHECK_FALSE(followed("G51.1 X0. Y0.\nG50.1 Y0."));
+  CHECK(followed("G51.1 X0. Y0.\nG50.1 Y0.\nG50.1 X0."));
+  CHECK(followed("G51.1 X0. Y0.\nG50.1"));
+  CHECK_FALSE(followed("G101 X0. Y0.\nG100 Y0.", "haas"));
+  CHECK(followed("G101 X0. Y0.\nG100 X0. Y0.", "haas"));
+  CHECK_FALSE(followed("/G51.1 Y0.\nG50.1 X0."));
+  CHECK_FALSE(followed("G92 X#1 Y#2\nG92.1 X0."));
+  CHECK(followed("G92 X#1 Y#2\nG92.1 X0. Y0. Z0."));
+  const auto calls = [](const std::string& blocks) {
+    return read(known_start_block + blocks + "\nX2. Y2. Z2.\n", "fanuc").moves.back().makes_hole;
+  };
+  CHECK(calls("G66 P9001\nG66 P9002\nG67"));
+  CHECK_FALSE(calls("G66 P9001\nG66 P9002\nG67\nG67"));
+  CHECK_FALSE(calls("G66 P9001\nG67\nG66 P9001\nG67"));
+}
+
+TEST_CASE("G100 and G101 of Haas mirror about their words and do not move") {
+  CHECK(read(known_start_block + "G1 X1.\nG100 X0\nX2.\n", "haas").moves.size() == 3);
+  CHECK(read(known_start_block + "G1 X1.\nG101 X0\nX2.\n", "haas").moves.size() == 3);
+}
+
+TEST_CASE("G92.1 of Fanuc presets the named axes to the work offset and does not move") {
+  const Program program = read(known_start_block + "G92 X5. Y6. Z7.\nG92.1 X0. Z0.\nG1 X1.\nY3.\n", "fanuc");
+  REQUIRE(program.moves.size() == 4);
+  const ProgramFrame& frame = program.frames[program.moves.back().frame];
+  CHECK(frame.origin_mm == Vector3(0, -6, 0));
+  CHECK(program.moves[2].start_mm == Vector3(0, 6, 10));
+  CHECK(program.moves[2].known_start == std::array{true, true, true});
+}
+
+TEST_CASE("G10 L2 P0 of Fanuc and Haas shifts all work offsets") {
+  for (const char* const dialect : {"fanuc", "haas"}) {
+    CAPTURE(dialect);
+    const Program program =
+        read(known_start_block + "G54 X1. Y1. Z1.\nG10 L2 P0 X100.\nG55 X2. Y2. Z2.\nX3.\n", dialect);
+    CHECK(stays(program.moves.back()));
+  }
+  CHECK_FALSE(
+      stays(read(known_start_block + "G54 X1 Y1 Z1\nG10 L2 P0 X#1\nG55 X2 Y2 Z2\nX3\n").moves.back()));
+}
+
+TEST_CASE("reference positions of an option are machine positions, as those of G28 and G30") {
+  struct Code {
+    const char *words, *dialect;
+  };
+  for (const Code& code : {Code{"G30.1 X0. Y0. Z5.", "fanuc"}, Code{"G28.1 X0. Y0. Z5.", "mach3"}}) {
+    CAPTURE(code.words);
+    const Program program = read(known_start_block + code.words + "\nG1 X2.\n", code.dialect);
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].known_start == std::array{false, false, false});
+  }
+  CHECK(read(known_start_block + "G28.1\nG1 X2.\n").moves[1].known_start == std::array{true, true, true});
+}
+
+TEST_CASE("M16 of Haas is a tool change") {
+  const Program program = read(known_start_block + "T2 M16\nG1 X2.\n", "haas");
+  CHECK(program.moves[1].known_start == std::array{false, false, false});
+  CHECK(program.moves[1].tool == 2);
+}
+
+TEST_CASE("P of G59 selects a work offset of Mach3 by its number") {
+  const auto offset = [](const std::string& code) {
+    const Program program = read("G21 G90 " + code + "\nG0 X1\n", "mach3");
+    return program.frames[program.moves[0].frame].work_offset;
+  };
+  CHECK(offset("G59 P3") == "G56");
+  CHECK(offset("G59") == "G59");
+  CHECK(diagnostic_of([&] { offset("G59 P7"); }).find("G59 P7 selects a work offset") != std::string::npos);
+  CHECK(diagnostic_of([&] { offset("G54 P20"); }).find("G54 P20 selects a work offset") != std::string::npos);
+}
+
+TEST_CASE("axis words select the axes of smooth interpolation, and D of G96 is a limit") {
+  for (const char* const words : {"G5.1 Q2 X0 Y0 Z0", "G5.1 Q3 X0 Y0", "G5.1 Q0 X0 Y0 Z0"}) {
+    CAPTURE(words);
+    const std::string text = known_start_block + words + "\nG1 X2.\n";
+    if (words[6] == '0') {
+      CHECK_FALSE(diagnostic_of([&] { read(text, "fanuc"); }).empty());
+      continue;
+    }
+    const Program program = read(text, "fanuc");
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].known_start == std::array{true, true, true});
+  }
+  CHECK(read(known_start_block + "G96 D1000 S50 M3\nG1 X2\n").moves.size() == 2);
+}

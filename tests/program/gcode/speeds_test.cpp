@@ -78,3 +78,19 @@ TEST_CASE("a spindle that may be off has no speed until M3 or M4") {
   CHECK(behind("M5\n/ M3\n").second == 0);
   CHECK(read("G21 G90 S8000 M3\nG1 X1 F500\nX2 M5\n").moves.back().spindle_rpm == speed_before);
 }
+
+TEST_CASE("F of a thread is a lead, except on LinuxCNC") {
+  for (const char* const dialect : {"fanuc", "haas"}) {
+    CAPTURE(dialect);
+    CHECK(behind("G33 X3. F2.\nG1 X4.\n", dialect).first == 0);
+    CHECK(behind("G33 X3. K2.\nX4. F2.\nG1 X4.\n", dialect).first == 0);
+    CHECK(behind("G33 X3. F2.\nG1 X4. F300\n", dialect).first == 300);
+  }
+  const auto siemens = [](const std::string& lines) {
+    const Program program = read("G71 G90 G94 G17\nG0 X0 Y0 Z0\nG1 X1 F500\n" + lines, "siemens");
+    return program.moves.back().feed_mm_min;
+  };
+  CHECK(siemens("G34 X3 K2 F0.1\nG1 X4\n") == 0);
+  CHECK(siemens("G33 X3 K2\nG1 X4\n") == 500);
+  CHECK(behind("G33 X3 K2 F300\nG1 X4\n").first == 300);
+}

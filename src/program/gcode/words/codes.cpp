@@ -48,10 +48,12 @@ constexpr std::array g_codes{
     GCode{230, Action::state, CodeGroup::none, {}, shop_families},
     GCode{270, Action::reference_move, CodeGroup::none, {}, shop_families},
     GCode{280, Action::reference_move},
-    GCode{281, Action::state},
+    GCode{281, Action::state, CodeGroup::none, {}, linux_like},
+    GCode{281, Action::reference_move, CodeGroup::none, {}, shop_families | mach3_family},
     GCode{290, Action::own_way, CodeGroup::none, {}, shop_families},
     GCode{300, Action::reference_move},
-    GCode{301, Action::state},
+    GCode{301, Action::state, CodeGroup::none, {}, linux_like},
+    GCode{301, Action::reference_move, CodeGroup::none, {}, shop_families | mach3_family},
     GCode{310, Action::probe, CodeGroup::none, {}, shop_families | mach3_family},
     GCode{330, Action::thread, CodeGroup::motion},
     GCode{331, Action::thread, CodeGroup::motion},
@@ -220,7 +222,7 @@ const GCode* find_g_code(int tenths, const Dialect& dialect) {
 MAction action_of_m(int code, const Dialect& dialect) {
   if (dialect.family == siemens_family) return action_of_siemens_m(code);
   if (code == 2 || code == 30) return MAction::end;
-  if (code == 6) return MAction::tool_change;
+  if (code == 6 || (code == 16 && dialect.family == haas_family)) return MAction::tool_change;
   if (contains(acting_after, code)) return MAction::acts_after;
   if (code == 98 || code == 97 || (code == 198 && dialect.family != linuxcnc_family)) return MAction::call;
   if (code == 99) return MAction::return_from_call;

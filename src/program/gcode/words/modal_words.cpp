@@ -55,10 +55,20 @@ void apply_feed_mode(Reading& r) {
   mark_known(r.state, unknown_feed_mode);
 }
 
+/// Whether F may be a lead, or its change: in threads of controls other than LinuxCNC.
+bool may_be_lead(const Reading& r) {
+  const SortedBlock& sorted = r.sorted;
+  if ((r.dialect.family & (linuxcnc_family | grbl_family)) != 0) return false;
+  const bool other = sorted.has(Action::rapid) || sorted.has(Action::feed) || sorted.has(Action::arc) ||
+                     sorted.has(Action::cycle) || sorted.has(Action::end_motion);
+  return sorted.has(Action::thread) || (r.state.motion == MotionMode::thread && !other);
+}
+
 void apply_f(Reading& r, std::optional<LengthUnit> unit_before) {
   const Word* f = r.sorted.word('F');
   // On some controls the F of a dwell is a time.
   if (f == nullptr || r.sorted.has(Action::dwell)) return;
+  if (may_be_lead(r)) return set_feed(r, 0, r.state.feed_unit);
   set_feed(r, f->value, r.dialect.feed_before_unit && unit_before ? unit_before : unit_of_feed(r));
 }
 

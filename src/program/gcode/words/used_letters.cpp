@@ -44,6 +44,8 @@ Letters used_by(Action action) {
       return letters("PQ");
     case Action::smooth:
       return letters("EPQR");
+    case Action::surface_speed:  // G96 D1000 S50: the highest speed
+      return letters("D");
     default:
       return 0;
   }
