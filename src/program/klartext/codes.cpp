@@ -15,7 +15,7 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
   constexpr std::array after{0, 1, 2, 5, 6, 9, 30, 60, 89, 99, 140};
   constexpr std::array without_motion{0,   1,   2,   3,   4,   5,   6,   8,   9,   13,  14,  30,  60,  89,
                                       90,  91,  92,  94,  97,  98,  99,  101, 102, 103, 107, 108, 109, 110,
-                                      111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 148, 149};
+                                      111, 116, 117, 118, 120, 126, 127, 136, 137, 140, 141, 143, 148, 149};
   codes.machine_position = codes.machine_position || code == 91 || code == 92;
   codes.cycle_call = codes.cycle_call || code == 89 || code == 99;
   codes.calls_each = codes.calls_each || code == 89;
@@ -29,6 +29,7 @@ void read_code(int code, const KlartextBlock& block, KlartextReading& r, Klartex
   if (code == 128 || code == 114 || code == 144)
     r.state.displacements[128] = fmt::format("M{} moves the linear axes with the rotary axes", code);
   if (code == 129 || code == 115 || code == 145) r.state.displacements.erase(128);
+  if (code == 143) delete_basic_rotation(block, r);
   if (code == 124)
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
                "M124: the control skips points that are closer than its limit");

@@ -48,6 +48,15 @@ bool stays_where_called(int cycle) {
          (cycle >= 200 && cycle <= 215);
 }
 
+/// Cycles of the control that only set states, or that move when they are called. Others may move by their
+/// definition.
+bool acts_when_called(int cycle) {
+  constexpr std::array others{32, 39, 225, 230, 231, 232, 233, 235, 1271, 1272, 1273, 1274, 1276, 1278, 1281};
+  return std::find(others.begin(), others.end(), cycle) != others.end() || (cycle >= 1 && cycle <= 29) ||
+         (cycle >= 200 && cycle <= 215) || (cycle >= 240 && cycle <= 241) || (cycle >= 251 && cycle <= 258) ||
+         (cycle >= 262 && cycle <= 277);
+}
+
 /// Cycles of older controls, which start from the height of the tool.
 bool counts_from_tool(int cycle) {
   return (cycle >= 1 && cycle <= 5) || cycle == 17 || cycle == 18;
@@ -176,9 +185,13 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   if (cycle == 7 && number.line > 0) return shift_datum(block, lex_cycle_words(block, number.end, r), r);
   if ((cycle == 8 || cycle == 10 || cycle == 11 || cycle == 19 || cycle == 26) && number.line > 0)
     return turn_coordinates(block, number, r);
-  if (cycle == 247) return select_preset(block, r);
-  if (cycle == 220 || cycle == 221)
+  if (cycle == 247) return define_preset(block, r);
+  if (cycle == 220 || cycle == 221 || cycle == 224)
     return add_unfollowed_move(block, r, "patterns of cycles are not corrected");
+  if (!acts_when_called(cycle)) {
+    forget_klartext_speeds(r.state);
+    add_unfollowed_move(block, r, fmt::format("CYCL DEF {} is not supported", cycle));
+  }
   if (cycle == 32 && number.line == 1)
     add_remark(r.program, line_of_file(r.program.expansion, block.line),
                fmt::format("CYCL DEF 32{}: the control smooths the path; corrections smaller than its "

@@ -17,6 +17,7 @@ namespace counterflex {
 namespace {
 
 constexpr std::string_view shifted_axes = "XYZABCUVW";
+constexpr int basic_rotation = 143;                    // number of its displacement
 constexpr int trans_datum = 1007, trans_other = 1008;  // numbers of displacements, no cycles
 
 /// Converts a known position after a shift of the coordinates. After a rotation X and Y are unknown.
@@ -57,6 +58,29 @@ void end_shift(const KlartextBlock& block, KlartextReading& r) {
   enter_frame(r);
 }
 
+void select_preset(const KlartextBlock& block, KlartextReading& r, std::string preset) {
+  if (may_not_run(block, r))
+    return set_displacement(r, 247, true, "a preset is selected in a block that a jump or '/' may skip");
+  if (preset.starts_with('+')) preset.erase(0, 1);
+  r.state.basic_rotation_deleted = false;
+  end_frame(r);
+  // A preset ends the shift, the mirror image, the rotation and the scales, but not the tilt (cycle 19,
+  // PLANE).
+  r.state.unfollowed_shift.fill(false);
+  for (const int number : {7, 8, 10, 11, 26, basic_rotation, trans_datum, trans_other})
+    r.state.displacements.erase(number);
+  r.state.known.fill(false);
+  r.state.run_begin = r.program.moves.size();
+  if (r.state.preset.empty()) {
+    r.state.preset = preset;
+    add_remark(r.program, line_of_file(r.program.expansion, block.line),
+               fmt::format("{} selects preset {}", block.head == "PRESET" ? "PRESET SELECT" : "CYCL DEF 247",
+                           preset));
+    return set_displacement(r, 247, false, "");
+  }
+  set_displacement(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
+}
+
 }  // namespace
 
 void set_displacement(KlartextReading& r, int number, bool acts, const char* why) {
@@ -84,12 +108,14 @@ void shift_datum(const KlartextBlock& block, bool lexed, KlartextReading& r) {
     double& shift = state.shift_mm[static_cast<Eigen::Index>(axis)];
     shift = word.value * unit + (word.incremental ? shift : 0);
   }
+  // "#5" of a datum table shifts all axes.
+  if (!lexed) std::fill_n(state.unfollowed_shift.begin(), 3, true);
   // A second equal shift does not make the first one known.
   const bool shifts_turned =
       is_turned(state) && (state.shift_mm != before || state.displacements.contains(7));
   const auto& unfollowed = state.unfollowed_shift;
-  const bool acts = !lexed || shifts_turned ||
-                    std::any_of(unfollowed.begin(), unfollowed.end(), [](bool on) { return on; });
+  const bool acts =
+      shifts_turned || std::any_of(unfollowed.begin(), unfollowed.end(), [](bool on) { return on; });
   set_displacement(r, 7, acts,
                    shifts_turned
                        ? "CYCL DEF 7 shifts coordinates that CYCL DEF 10 has turned; shift them before"
@@ -135,27 +161,31 @@ void read_transformation(const KlartextBlock& block, KlartextReading& r) {
   set_displacement(r, trans_other, true, "TRANS mirrors, rotates or scales coordinates");
 }
 
-void select_preset(const KlartextBlock& block, KlartextReading& r) {
-  if (may_not_run(block, r))
-    return set_displacement(r, 247, true, "a preset is selected in a block that a jump or '/' may skip");
+void define_preset(const KlartextBlock& block, KlartextReading& r) {
   std::string definition;
   for (const Span& line : block.parts) definition += squeezed(part(r.program.text, line));
   const std::size_t q = definition.find("Q339=");
-  const std::string preset = q == std::string::npos ? "?" : definition.substr(q + 5);
-  end_frame(r);
-  // A preset ends the shift, the mirror image, the rotation and the scales, but not the tilt (cycle 19,
-  // PLANE).
-  r.state.unfollowed_shift.fill(false);
-  for (const int number : {7, 8, 10, 11, 26, trans_datum, trans_other}) r.state.displacements.erase(number);
-  r.state.known.fill(false);
-  r.state.run_begin = r.program.moves.size();
-  if (r.state.preset.empty()) {
-    r.state.preset = preset;
-    add_remark(r.program, line_of_file(r.program.expansion, block.line),
-               fmt::format("CYCL DEF 247 selects preset {}", preset));
-    return set_displacement(r, 247, false, "");
-  }
-  set_displacement(r, 247, preset != r.state.preset || preset == "?", "another preset is selected");
+  select_preset(block, r, q == std::string::npos ? "?" : definition.substr(q + 5));
+}
+
+void read_preset(const KlartextBlock& block, KlartextReading& r) {
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  constexpr std::string_view select = "SELECT#";
+  const bool plain = rest.starts_with(select) && block.parts.size() == 1 &&
+                     rest.find_first_not_of("0123456789", select.size()) == std::string::npos;
+  if (plain) return select_preset(block, r, rest.substr(select.size()));
+  set_displacement(r, 247, true, "PRESET changes the preset by more than SELECT and a number");
+}
+
+void delete_basic_rotation(const KlartextBlock& block, KlartextReading& r) {
+  KlartextState& state = r.state;
+  if (state.basic_rotation_deleted) return;
+  if (r.moves_read > 0 || may_not_run(block, r))
+    return set_displacement(r, basic_rotation, true,
+                            "M143 deletes the basic rotation behind the first move: coordinates are unknown");
+  state.basic_rotation_deleted = true;
+  add_remark(r.program, line_of_file(r.program.expansion, block.line),
+             "M143 deletes the basic rotation: assumed of the work offset in the machine file, too");
 }
 
 }  // namespace counterflex

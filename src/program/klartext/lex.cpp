@@ -189,6 +189,17 @@ bool follows_look_ahead(const std::vector<KlartextWord>& words) {
   return !words.empty() && words.back().key == "M" && words.back().value == 120;
 }
 
+/// "C" of M94 C and M138 C: an axis without a coordinate.
+bool is_axis_of_code(const WordScanner& s, std::string_view key, const std::vector<KlartextWord>& words) {
+  const bool axis = key.size() == 1 && std::string_view("ABCUVWXYZ").find(key[0]) != std::string_view::npos;
+  const bool code = std::any_of(words.begin(), words.end(), [](const KlartextWord& word) {
+    return word.key == "M" && (word.value == 94 || word.value == 138);
+  });
+  const std::size_t behind = skip_blanks(s.text, s.at + key.size(), s.end);
+  return axis && code &&
+         (behind >= s.end || (klartext_letter(s.text[behind]) && klartext_upper(s.text[behind]) != 'Q'));
+}
+
 bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   if (s.peek() == '(') {  // a comment
     s.at = std::min(s.text.find(')', s.at), s.end - 1) + 1;
@@ -197,6 +208,10 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   const std::string_view key = key_at(s);
   if (key.empty()) return false;
   if (key == "LA" && !follows_look_ahead(words)) return false;
+  if (is_axis_of_code(s, key, words)) {
+    ++s.at;
+    return true;
+  }
   KlartextWord word;
   word.incremental = key.size() == 2 && key[0] == 'I';
   word.key = key.substr(word.incremental ? 1 : 0);

@@ -166,6 +166,22 @@ void read_plane(const KlartextBlock& block, KlartextReading& r) {
   if (!resets) r.state.displacements[19] = "coordinates are tilted";
 }
 
+/// FUNCTION is not followed. That of parallel axes, of turning and of TCPM act until they are reset.
+void read_function(const KlartextBlock& block, KlartextReading& r) {
+  constexpr int tcpm = 128, parallel_axes = 1029, turning = 1030;  // numbers of displacements
+  forget_klartext_speeds(r.state);
+  add_unfollowed_move(block, r, "FUNCTION is not supported");
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  if (rest.starts_with("PARAXMODE"))
+    set_displacement(r, parallel_axes, !rest.ends_with("OFF"), "FUNCTION PARAXMODE selects other axes");
+  if (rest.starts_with("MODE"))
+    set_displacement(r, turning, !rest.starts_with("MODEMILL"),
+                     "FUNCTION MODE selects another machining mode");
+  if (rest.starts_with("TCPM"))
+    set_displacement(r, tcpm, true, "FUNCTION TCPM moves the linear axes with the rotary axes");
+  if (rest.starts_with("RESETTCPM")) set_displacement(r, tcpm, false, "");
+}
+
 void read_nothing(const KlartextBlock&, KlartextReading&) {}
 
 /// FN 17 and FN 25 write data of the control, such as the datum.
@@ -219,6 +235,8 @@ constexpr std::array statement_readers{
     KnownStatement{"PLANE", read_plane},
     KnownStatement{"TRANS", read_transformation},
     KnownStatement{"TCH", read_probe},
+    KnownStatement{"PRESET", read_preset},
+    KnownStatement{"FUNCTION", read_function},
     KnownStatement{"BEGIN", read_begin},
     KnownStatement{"END", read_end},
     KnownStatement{"BLK", read_nothing},

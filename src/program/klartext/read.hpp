@@ -63,6 +63,7 @@ struct KlartextState {
   double turn_rad = 0;                     ///< by cycle 10, about Z of the shifted coordinates
   std::size_t frame = 0;                   ///< index into Program::frames
   std::string preset;                      ///< number of cycle 247; empty: none yet
+  bool basic_rotation_deleted = false;     ///< by M143
   bool cycle_acts_here = false;            ///< the defined cycle stays above the point at which it is called
   bool cycle_is_relative = false;          ///< all its heights are relative to the tool's position
   bool cycle_returns = false;              ///< such a cycle returns to its start
@@ -185,7 +186,13 @@ void end_frame(KlartextReading& reading);
 void read_transformation(const KlartextBlock& block, KlartextReading& reading);
 
 /// CYCL DEF 247. Unknown if it may not run.
-void select_preset(const KlartextBlock& block, KlartextReading& reading);
+void define_preset(const KlartextBlock& block, KlartextReading& reading);
+
+/// PRESET SELECT #3 as CYCL DEF 247. Coordinates are unknown behind the other forms of PRESET.
+void read_preset(const KlartextBlock& block, KlartextReading& reading);
+
+/// M143. Before the first move the work offset is that without the rotation, later coordinates are unknown.
+void delete_basic_rotation(const KlartextBlock& block, KlartextReading& reading);
 
 /// CYCL DEF and CYCL CALL.
 void read_klartext_cycle(const KlartextBlock& block, KlartextReading& reading);

@@ -58,6 +58,7 @@ void mark_changes_unknown(const KlartextState& before, KlartextState& now) {
   mark_polar_unknown(before, now);
   mark_cycle_unknown(before, now);
   mark_contour_unknown(before, now);
+  now.basic_rotation_deleted = now.basic_rotation_deleted && before.basic_rotation_deleted;
   now.displacements.insert(before.displacements.begin(), before.displacements.end());
   for (std::size_t axis = 0; axis < now.unfollowed_shift.size(); ++axis)
     now.unfollowed_shift[axis] = now.unfollowed_shift[axis] || before.unfollowed_shift[axis];

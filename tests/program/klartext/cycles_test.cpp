@@ -207,3 +207,22 @@ TEST_CASE("klartext: M89 calls the cycle at the end of all moves up to M99") {
   for (const Move& move : program.moves) held.push_back(move.handling == Handling::held);
   CHECK(held == std::vector<bool>{false, true, true, true, false});
 }
+
+TEST_CASE("klartext: a cycle that may act by its definition makes the position unknown") {
+  const auto behind = [](const std::string& definition) {
+    return read(klartext({"TOOL CALL 1 Z S1000", "L X+0 Y+0 Z+5 FMAX", definition, "L X+10 F100"}))
+        .moves.back()
+        .known_start;
+  };
+  for (const char* definition :
+       {"CYCL DEF 224 DATAMATRIX", "CYCL DEF 220 POLAR PATTERN", "CYCL DEF 800 ADJUST", "CYCL DEF 399 OEM"}) {
+    CAPTURE(definition);
+    CHECK(behind(definition) == std::array{false, false, false});
+  }
+  for (const char* definition :
+       {"CYCL DEF 200 DRILLING", "CYCL DEF 251 RECTANGULAR POCKET", "CYCL DEF 9.0 DWELL",
+        "CYCL DEF 32.0 TOLERANCE", "CYCL DEF 14.0 CONTOUR", "CYCL DEF 1271 OCM"}) {
+    CAPTURE(definition);
+    CHECK(behind(definition) == std::array{true, true, true});
+  }
+}

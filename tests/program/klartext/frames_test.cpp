@@ -102,3 +102,42 @@ TEST_CASE("klartext: a rotation about Z is a frame about the shifted datum") {
       {"L X+1 Y+2 Z+3 FMAX", "CYCL DEF 10.1 ROT+90", "CYCL DEF 7.1 X+10", "CYCL DEF 7.1 X+10", "L X+5 Y+1"}));
   CHECK(twice.moves.back().fixed[0]);
 }
+
+TEST_CASE("klartext: the end of the shift along one axis leaves that of a datum table along the others") {
+  const auto last = [](const std::string& blocks) {
+    return read(klartext({"CYCL DEF 7.0 DATUM SHIFT", "CYCL DEF 7.1 #5", blocks, "L X+0 Y+0 Z+5 FMAX",
+                          "L X+10 F100"}))
+        .moves.back();
+  };
+  for (const char* block : {"CYCL DEF 7.1 X+0", "CYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0"}) {
+    CAPTURE(block);
+    CHECK(last(block).fixed[0]);
+  }
+  CHECK_FALSE(last("CYCL DEF 7.1 X+0\nCYCL DEF 7.2 Y+0\nCYCL DEF 7.3 Z+0").fixed[0]);
+}
+
+TEST_CASE("klartext: PRESET, FUNCTION and M143 change the coordinates") {
+  const auto last = [](const std::string& blocks) {
+    return read(klartext({blocks, "L X+0 Y+0 Z+5 FMAX", "L X+10 F100"})).moves.back();
+  };
+  const std::string moves = "L X+0 Y+0 Z+5 FMAX\n";
+  for (const std::string& blocks :
+       {std::string("PRESET SELECT #3\nPRESET SELECT #4"),
+        std::string("CYCL DEF 247 Q339=+3\nPRESET SELECT #4"), std::string("PRESET CORR X+2"),
+        std::string("PRESET SELECT \"NEW\" KEEP TRANS"), std::string("FUNCTION PARAXMODE X Y W"),
+        std::string("FUNCTION MODE TURN"), std::string("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"),
+        moves + "L M143", std::string("/L M143"), "L M143\nPRESET SELECT #3\n" + moves + "L M143"}) {
+    CAPTURE(blocks);
+    CHECK(last(blocks).fixed[0]);
+  }
+  for (const std::string& blocks :
+       {std::string("PRESET SELECT #3"), std::string("CYCL DEF 247 Q339=+3\nPRESET SELECT #3"),
+        std::string("FUNCTION PARAXMODE X Y W\nFUNCTION PARAXMODE OFF"),
+        std::string("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS\nFUNCTION RESET TCPM"), std::string("L M143"),
+        "L M143\n" + moves + "L M143"}) {
+    CAPTURE(blocks);
+    CHECK(all_known(last(blocks).known_end));
+    CHECK_FALSE(last(blocks).fixed[0]);
+  }
+  CHECK(read(klartext({"PRESET SELECT #3", moves})).remarks.at(0).what == "PRESET SELECT selects preset 3");
+}

@@ -196,3 +196,14 @@ TEST_CASE("klartext: forces are read from comments") {
   REQUIRE(program.moves[1].force);
   CHECK((*program.moves[1].force)[0] == -30);
 }
+
+TEST_CASE("klartext: axes without a number behind M94 and M138 do not move") {
+  for (const char* block : {"L M94 C", "L M138 C", "L M138 A C", "M94 C", "L M94"}) {
+    CAPTURE(block);
+    const Program program = read(klartext({"L X+0 Y+0 Z+5 FMAX", block, "L X+10 F100"}));
+    REQUIRE(program.moves.size() == 2);
+    CHECK(all_known(program.moves[1].known_end));
+    CHECK(program.left_alone.empty());
+  }
+  CHECK(klartext_refusal({"L C"}).find("C has no number") != std::string::npos);
+}
