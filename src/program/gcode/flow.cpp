@@ -49,6 +49,7 @@ void mark_speeds_unknown(const ModalState& before, ModalState& now) {
   if (now.feed != before.feed || now.feed_unit != before.feed_unit) now.feed = 0;
   if (now.spindle_rpm != before.spindle_rpm) now.spindle_rpm = 0;
   if (now.feed_share != before.feed_share) now.feed_share = 0;
+  now.feed_of_axes = now.feed_of_axes || before.feed_of_axes;
   if (now.main_spindle != before.main_spindle) now.main_spindle.reset();
   now.surface_speed = now.surface_speed || before.surface_speed;
   now.spindle_off = now.spindle_off || before.spindle_off;

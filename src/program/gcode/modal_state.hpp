@@ -91,6 +91,7 @@ struct ModalState {
   bool surface_speed = false;        ///< G96: S is a cutting speed
   bool spindle_off = false;          ///< behind M5, or perhaps
   double feed_share = 1;             ///< OVR= of a Sinumerik; 0: unknown
+  bool feed_of_axes = false;         ///< FGROUP of a Sinumerik: F is the feed of some axes only
   std::optional<long> main_spindle;  ///< by SETMS; empty: unknown
   int normal = 2;                    ///< axis normal to the plane
   bool relative = false;             ///< G91

@@ -66,7 +66,7 @@ constexpr std::array harmless_names{
 
 constexpr std::array tool_offset_names{"TOFF", "TOFFL", "TOFFR", "TOFFLR", "TCARR", "DL"};
 
-constexpr std::array speed_names{"FB", "FZ", "OVR", "SVC", "SETMS", "SPOS", "SPOSA"};
+constexpr std::array speed_names{"FB", "FZ", "OVR", "SVC", "SETMS", "SPOS", "SPOSA", "FGROUP"};
 
 constexpr std::array<std::string_view, 17> harmless_variables{"$AC_TIMER",
                                                               "$AC_MARKER",

@@ -4,6 +4,7 @@
 #include <charconv>
 #include <cmath>
 
+#include "counterflex/files/text.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -50,10 +51,25 @@ void set_main_spindle(ModalState& state, const Word& value) {
   if (value.literal) state.main_spindle = std::lround(value.value);
 }
 
+/// Whether F of "FGROUP(X,Y,Z,C)" is the feed of the path: the group has X, Y and Z, or no axis.
+bool is_feed_of_path(std::string_view axes) {
+  if (trimmed_text(axes).empty()) return true;
+  std::size_t linear = 0;
+  while (!axes.empty()) {
+    const std::size_t comma = std::min(axes.find(','), axes.size() - 1);
+    const std::string_view axis = trimmed_text(axes.substr(0, axes[comma] == ',' ? comma : comma + 1));
+    linear += is_word(axis, "X") || is_word(axis, "Y") || is_word(axis, "Z");
+    axes.remove_prefix(comma + 1);
+  }
+  return linear == 3;
+}
+
 void apply_speed_word(Reading& r, std::string_view name, const Word& value) {
   ModalState& state = r.state;
   if (is_word(name, "FB"))
     r.own_feed = known_or_zero(value);
+  else if (is_word(name, "FGROUP"))
+    state.feed_of_axes = !is_feed_of_path(part(r.program.text, value.number));
   else if (is_word(name, "FZ"))
     state.feed = 0;
   else if (is_word(name, "OVR"))

@@ -131,3 +131,11 @@ TEST_CASE("siemens: a feed and a speed beside text that is not read are unknown"
   CHECK(behind_siemens("X2 F100 FLIN\n") == SiemensSpeeds{0, 0});
   CHECK(behind_siemens("IF R1==1\nS2000 F100\nENDIF\n") == SiemensSpeeds{0, 0});
 }
+
+TEST_CASE("siemens: F is not the feed of the path while FGROUP names some of X, Y and Z") {
+  CHECK(behind_siemens("FGROUP(X)\n").first == 0);
+  CHECK(behind_siemens("FGROUP(X,Y)\nF300\n").first == 0);
+  CHECK(behind_siemens("FGROUP(X)\nFGROUP()\n").first == 500);
+  CHECK(behind_siemens("FGROUP(X)\nFGROUP( X , Y,Z,C)\nF300\n").first == 300);
+  CHECK(behind_siemens("/FGROUP(X)\n").first == 0);
+}

@@ -169,6 +169,7 @@ void read_unknown_word(const Block& block, Reading& r, std::string_view name) {
                    fmt::format("'{}=' is not supported; a variable needs DEF in this program, or its name in "
                                "harmless_calls of the machine file",
                                name));
+  assume_of_calls(r.program, block.line);
 }
 
 void read_anything(const Block& block, Reading& r, std::string_view why) {

@@ -30,6 +30,7 @@ double feed_mm_min(const Reading& r) {
   constexpr std::uint16_t doubts = unknown_unit | unknown_feed_mode;
   if (!state.unit || state.feed_mode == FeedUnit::inverse_time || (state.unknown_modes & doubts) != 0)
     return 0;
+  if (state.feed_of_axes) return 0;
   // Whether OVR= acts on FB=, too, is not known.
   if (r.own_feed && state.feed_share != 1) return 0;
   const std::optional<LengthUnit> own_unit = unit_of_feed(r);
