@@ -40,8 +40,8 @@ void put_costly_first(std::vector<PlanRow>& rows) {
 /// Merges the moves with the list of blocks that are not corrected, both in the order of lines.
 class MotionPlanner::Window {
  public:
-  Window(const Program& program, MotionPlan& plan, std::optional<LeftAlone>& reason)
-      : program_(program), left_(program.left_alone), plan_(plan), reason_(reason) {
+  Window(const Program& program, MotionPlan& plan, Carried& carried)
+      : program_(program), left_(program.left_alone), plan_(plan), carried_(carried) {
     std::stable_sort(left_.begin(), left_.end(), [](const LeftAlone& a, const LeftAlone& b) {
       return line_in_text(a) < line_in_text(b);
     });
@@ -75,7 +75,7 @@ class MotionPlanner::Window {
          ++next_left_) {
       const LeftAlone& block = left_[next_left_];
       if (line_in_text(block) == line || is_move(line_in_text(block))) {
-        reason_ = block;
+        carried_.reason = block;
         continue;
       }
       plan_.not_corrected += block.machine_position;
@@ -95,16 +95,41 @@ class MotionPlanner::Window {
     const Move& move = program_.moves[m];
     if (any_axis(move.fixed)) return MoveHandling::left;
     if (move.handling == Handling::group) return MoveHandling::grouped;
-    if (move.handling == Handling::held) return MoveHandling::held;
+    if (move.handling == Handling::held || holds_in_doubt(move)) return MoveHandling::held;
     if (all_known(move.known_end)) return MoveHandling::corrected;
     const Move* next = next_known_[m];
     const bool near = next != nullptr && next->block_index - move.block_index <= look_ahead;
     return near && !move.relative ? MoveHandling::corrected : MoveHandling::left;
   }
 
+  /// Whether the start of the move may not be known, so that it keeps the correction of the text.
+  bool holds_in_doubt(const Move& move) const {
+    if (!carried_.doubtful || !any_axis(carried_.holds) || move.cycle) return false;
+    const bool known_end = all_known(move.known_end);
+    return !(known_end && all_known(move.known_start)) && (move.motion == Motion::feed || !known_end);
+  }
+
+  /// What the text holds behind move `m`.
+  void carry(std::size_t m, MoveHandling handling) {
+    const Move& move = program_.moves[m];
+    const bool all = handling == MoveHandling::grouped ||
+                     (handling == MoveHandling::corrected && all_known(move.known_end));
+    const bool in_doubt = holds_in_doubt(move);
+    for (std::size_t axis = 0; axis < 3; ++axis) {
+      bool& holds = carried_.holds[axis];
+      const bool is_left = handling == MoveHandling::left && move.words[axis] && !is_relative(move, axis);
+      holds = all || (in_doubt && move.known_end[axis]) || (holds && !is_left && !move.fixed[axis]);
+    }
+    carried_.doubtful = leaves_doubt(move, carried_.doubtful);
+  }
+
   void add(std::size_t m) {
     const Move& move = program_.moves[m];
-    switch (handling_of(m)) {
+    const std::array<bool, 3> lost = lost_axes(program_, m);
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      carried_.holds[axis] = move.starts_uncorrected || (carried_.holds[axis] && !lost[axis]);
+    const MoveHandling handling = handling_of(m);
+    switch (handling) {
       case MoveHandling::corrected:
         ++plan_.corrected;
         add_length(move, program_, plan_.corrected_cut);
@@ -127,11 +152,14 @@ class MotionPlanner::Window {
         break;
     }
     count_kind(move);
+    carry(m, handling);
   }
 
   std::string why_held(const Move& move) const {
     if (move.cycle && move.cycle->repeats == 0) return "a cycle with a count of 0 drills no hole";
     if (move.cycle && move.relative) return "a cycle in G91 holds the shift of the block before it";
+    if (holds_in_doubt(move))
+      return "a block before it may be skipped ('/') or is not followed, so its start is not known";
     return reason_at(move).value_or("holds the shift of the block before it");
   }
 
@@ -146,8 +174,9 @@ class MotionPlanner::Window {
 
   /// A reason is listed once for consecutive moves.
   std::optional<std::string> reason_at(const Move& move) const {
-    if (!reason_ || line_in_text(*reason_) > line_in_text(move)) return std::nullopt;
-    return reason_->why;
+    const std::optional<LeftAlone>& reason = carried_.reason;
+    if (!reason || line_in_text(*reason) > line_in_text(move)) return std::nullopt;
+    return reason->why;
   }
 
   /// The row of the reason; counts the block in it.
@@ -180,11 +209,11 @@ class MotionPlanner::Window {
   std::size_t next_left_ = 0;
   std::vector<const Move*> next_known_;
   MotionPlan& plan_;
-  std::optional<LeftAlone>& reason_;
+  Carried& carried_;
 };
 
 void MotionPlanner::add(const Program& window) {
-  Window(window, plan_, reason_).run();
+  Window(window, plan_, carried_).run();
 }
 
 MotionPlan MotionPlanner::plan() const {

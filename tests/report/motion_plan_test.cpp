@@ -2,6 +2,7 @@
 
 #include <doctest/doctest.h>
 
+#include "counterflex/program/read_program.hpp"
 #include "support/programs.hpp"
 
 using namespace counterflex;
@@ -172,4 +173,19 @@ TEST_CASE("a plan has shares of the cutting length, and its rows the most costly
   CHECK(plan.held_rows[1].why == "a short one");
   program.moves[2].known_end = {};
   CHECK(motion_plan(program).held_cut.unknown == 1);
+}
+TEST_CASE("behind a block that '/' may skip moves are held until their start is known") {
+  const Program program = read_program(
+      "G21 G90\nG0 X0 Y0 Z5\nG1 Z-1 F200\nX10\n/X20\nY10\nX0\nX5 Y5\nG0 Z5\nM30\n", "part.ngc", {});
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.corrected == 6);
+  CHECK(plan.held == 2);
+  REQUIRE(plan.held_rows.size() == 1);
+  CHECK(plan.held_rows[0].lines == std::vector<int>{6, 7});
+  CHECK(plan.held_rows[0].why ==
+        "a block before it may be skipped ('/') or is not followed, so its start is not known");
+}
+TEST_CASE("nothing is held behind a skipped block where the text holds no correction yet") {
+  const Program program = read_program("G21 G90\n/G0 X0 Y0\nG0 X5 Y5 Z5\nG1 Z-1 F200\nM30\n", "part.ngc", {});
+  CHECK(motion_plan(program).corrected == 3);
 }

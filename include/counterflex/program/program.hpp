@@ -159,6 +159,27 @@ inline const Move* move_before(const Program& program, std::size_t index) {
   return program.before ? &*program.before : nullptr;
 }
 
+/// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no
+/// correction holds there any more. Where only '/', another work offset or what is not followed makes a
+/// position unknown it does.
+inline std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
+  std::array<bool, 3> lost{};
+  const Move &move = program.moves[m], *last = move_before(program, m);
+  if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.moved_only_by_program[axis];
+  return lost;
+}
+
+/// Whether the start of what follows may not be known: '/' may skip the block, or it is not followed.
+/// `doubtful`: whether that of the block was not.
+inline bool leaves_doubt(const Move& move, bool doubtful) {
+  if (move.block_delete || (doubtful && !all_known(move.known_end))) return true;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis])) return true;
+  return false;
+}
+
 // Modal drilling cycles of a Sinumerik.
 
 /// The cycle of "MCALL CYCLE81(50, 0, 2, -20)", from MCALL to the end of the statement without its comment.

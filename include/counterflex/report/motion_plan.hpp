@@ -61,8 +61,15 @@ class MotionPlanner {
  private:
   class Window;
 
+  /// What a window leaves for the next one.
+  struct Carried {
+    std::optional<LeftAlone> reason{};  ///< the last one that moves were left alone for
+    bool doubtful = false;              ///< `leaves_doubt` of the last move
+    std::array<bool, 3> holds{};        ///< by axis, whether the text holds a correction
+  };
+
   MotionPlan plan_;
-  std::optional<LeftAlone> reason_;  ///< the last one that moves were left alone for
+  Carried carried_;
 };
 
 /// The plan of a program that is one window.

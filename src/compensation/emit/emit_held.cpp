@@ -111,8 +111,7 @@ void Emitter::emit_doubtful(std::size_t m) {
   const Move& move = job_.program.moves[m];
   list(move,
        "held: a block before it may be skipped ('/') or is not followed, so its start is not known; it keeps "
-       "the "
-       "correction that holds there");
+       "the correction that holds there");
   const Vector3 shift = held_shift_mm(move);
   put(shifted(m, shift), Extent::held);
   state_.correction = correction_of(move, shift);

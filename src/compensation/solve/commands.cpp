@@ -97,20 +97,4 @@ TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model&
   return {&model, wanted_of(job, move), orientation_of(job, move)};
 }
 
-std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
-  std::array<bool, 3> lost{};
-  const Move &move = program.moves[m], *last = move_before(program, m);
-  if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.moved_only_by_program[axis];
-  return lost;
-}
-
-bool leaves_doubt(const Move& move, bool doubtful) {
-  if (move.block_delete || (doubtful && !all_known(move.known_end))) return true;
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.fixed[axis] || (move.known_start[axis] && !move.known_end[axis])) return true;
-  return false;
-}
-
 }  // namespace counterflex

@@ -54,13 +54,4 @@ Piece piece_of_end(const Job& job, const Move& original, const Move& found);
 /// fraction `u` of its move.
 TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model& model);
 
-/// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no
-/// correction holds there any more. Where only '/', another work offset or what is not followed makes a
-/// position unknown it does.
-std::array<bool, 3> lost_axes(const Program& program, std::size_t m);
-
-/// Whether the start of what follows may not be known: '/' may skip the block, or it is not followed.
-/// `doubtful`: whether that of the block was not.
-bool leaves_doubt(const Move& move, bool doubtful);
-
 }  // namespace counterflex
