@@ -109,7 +109,8 @@ py::tuple run(cli::Options options, bool causes, const Command& command) {
   Outcome outcome;
   {
     const py::gil_scoped_release released;
-    options.json = causes;
+    options.json = true;
+    options.without_causes = !causes;
     cli::Console console({.quiet = true},
                          {.error = [&](std::string_view text) { outcome.errors.emplace_back(text); },
                           .warning = [&](std::string_view text) { outcome.warnings.emplace_back(text); }});

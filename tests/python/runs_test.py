@@ -57,12 +57,15 @@ class Compensating(unittest.TestCase):
         self.assertIsInstance(text, str)
         self.assertEqual(text.encode(), counterflex.compensate(TEXT, self.machine, causes=False).text)
         self.assertTrue(np.isnan(report.waypoints['geometry_dx_mm']).all())
+        self.assertTrue(all(worst['text'] for worst in report.data['worst']))
 
     def test_nothing_is_written_without_success(self):
         text, report = counterflex.compensate(TEXT, self.machine, max_correction_mm=0.1)
         self.assertIsNone(text)
         self.assertEqual(report.verdict, 'FAILED')
         self.assertEqual((report.data['failure']['line'], report.data['failure']['exit']), (7, 6))
+        plain = counterflex.compensate(TEXT, self.machine, causes=False, max_correction_mm=0.1).report
+        self.assertEqual(plain.data['failure'], report.data['failure'])
 
     def test_the_header_names_the_changed_machine(self):
         other = self.machine.with_parameters({'x.mount.rx_deg': 0.9})

@@ -47,8 +47,8 @@ RunFacts facts_of(const Options& options, const Run& run) {
   facts.version = version;
   // Causes along the path take about as long as everything else in `compensate`; only the other commands
   // compute them always.
-  facts.attribution =
-      options.command != Command::compensate || options.json || options.report || options.plot;
+  facts.attribution = !options.without_causes && (options.command != Command::compensate || options.json ||
+                                                  options.report || options.plot);
   facts.inputs = {run.file.file, run.machine.file};
   const auto& forces = run.force_input.files;
   const auto& lists = run.file.data_lists;

@@ -205,6 +205,7 @@ struct Options {
   const JobFiles* job_files = nullptr;  ///< compensate in a batch or a watch only: of all jobs
 
   bool json = false;
+  bool without_causes = false;  ///< compensate in Python only: waypoints have no causes
   bool quiet = false;
   bool verbose = false;
   SettingSources sources;    ///< settings of this command line and the environment
