@@ -49,7 +49,9 @@ std::string model_file(const Options& options) {
   if (options.forces.size() != 1 || !options.forces.front().ends_with(".toml") ||
       options.forces.front() == "-")
     throw InputError(ErrorKind::usage, {}, "forces fit needs one cutting model, -f FILE.toml");
-  if (options.load_scale != 1)
+  const auto scales = [](const Setting& setting) { return setting.option == "load-scale"; };
+  if (std::ranges::any_of(options.sources.flags, scales) ||
+      std::ranges::any_of(options.sources.environment, scales))
     throw InputError(ErrorKind::usage, {}, "forces fit has no --load-scale: the log has the whole force");
   return options.forces.front();
 }
@@ -157,6 +159,7 @@ FitInput read_fit_input(const Options& options, Console& console) {
       options, console,
       [&](const std::string& program, ForceSource& source) {
         input.program = program;
+        source.scale = 1;  // the log has the whole force
         take_mean_torques(input.sections, source);
       },
       [&](const ForceSource& source, const Program& window, const Toolpath& path,
