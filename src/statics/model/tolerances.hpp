@@ -106,6 +106,8 @@ inline constexpr double load_of_cells = 250, remainder_margin = 2;
 /// with 1e-7 1.2, with 5e-7 1.9 (a sixth slower). Other machines take as many steps with all three; none
 /// takes fewer with 1e-9.
 inline constexpr double negligible_term = 2e-8;
-inline constexpr std::size_t bytes_of_cells = 12'000'000;  ///< that are kept, of each kind
+/// That are kept, of each kind; the oldest quarter is forgotten at once. With 6 MB rows of the bench's raster
+/// make their cells again: a quarter more instructions with reports.
+inline constexpr std::size_t bytes_of_cells = 9'000'000;
 
 }  // namespace counterflex

@@ -1,5 +1,6 @@
 #pragma once
 /// The cells in which the kernel starts, on a lattice of tip positions.
+#include <algorithm>
 #include <array>
 #include <map>
 #include <memory>
@@ -46,7 +47,7 @@ class CellCache {
     }
     Pointer made = make();
     const std::lock_guard lock(mutex_);
-    if (things_.size() >= most) forget_older_half();
+    if (things_.size() >= most) forget_oldest_quarter();
     return use(things_.try_emplace(index, Entry{std::move(made), 0}).first->second);
   }
 
@@ -69,12 +70,12 @@ class CellCache {
     return entry.thing;
   }
 
-  void forget_older_half() {
+  void forget_oldest_quarter() {
     std::vector<unsigned long> times;
     for (const auto& [index, entry] : things_) times.push_back(entry.used);
-    const auto middle = times.begin() + static_cast<long>(times.size() / 2);
-    std::nth_element(times.begin(), middle, times.end());
-    std::erase_if(things_, [limit = *middle](const auto& item) { return item.second.used < limit; });
+    const auto kept = times.begin() + static_cast<long>(std::max<std::size_t>(1, times.size() / 4));
+    std::nth_element(times.begin(), kept, times.end());
+    std::erase_if(things_, [limit = *kept](const auto& item) { return item.second.used < limit; });
   }
 
   std::mutex mutex_;

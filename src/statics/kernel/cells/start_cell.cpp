@@ -257,6 +257,7 @@ class CellSamples {
           polynomials.coefficients.push_back(i < end ? coefficients(i, term.number) : 0);
       first = end;
     }
+    polynomials.coefficients.shrink_to_fit();  // many cells are kept
     return polynomials;
   }
 
