@@ -1,5 +1,8 @@
+#include <atomic>
+
 #include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/files/parallel.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/reach.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
@@ -53,19 +56,22 @@ UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* s
 }
 
 std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
-                                    const StartTables* starts) {
+                                    const StartTables* starts, int threads) {
+  std::vector<UnloadedDeviation> at(places.size());
+  std::atomic<std::size_t> end = places.size();  // a run ends there, too; each further place takes long
+  for_each_index(places.size(), threads, [&](std::size_t i) {
+    if (i >= end) return;
+    const auto& [p_mm, R] = places[i];
+    const std::optional<Matrix3> R_MT = R ? std::optional<Matrix3>(X_MW.R * *R) : std::nullopt;
+    at[i] = unloaded_deviation({&model, X_MW * Vector3(p_mm * mm), R_MT}, starts);
+    if (at[i].status == Status::converged) return;
+    std::size_t last = end;
+    while (i < last && !end.compare_exchange_weak(last, i)) continue;
+  });
+  if (end == 0) return std::nullopt;
   Vector3 sum = Vector3::Zero();
-  int solved = 0;
-  for (const PathPlace& place : places) {
-    const std::optional<Matrix3> R_MT = place.R ? std::optional<Matrix3>(X_MW.R * *place.R) : std::nullopt;
-    const UnloadedDeviation here =
-        unloaded_deviation({&model, X_MW * Vector3(place.p_mm * mm), R_MT}, starts);
-    if (here.status != Status::converged) break;  // a run ends there, too; each further place takes long
-    sum += here.d;
-    ++solved;
-  }
-  if (solved == 0) return std::nullopt;
-  return sum / solved;
+  for (std::size_t i = 0; i < end; ++i) sum += at[i].d;
+  return sum / static_cast<double>(end);
 }
 
 }  // namespace counterflex

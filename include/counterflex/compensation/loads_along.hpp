@@ -156,7 +156,7 @@ UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* s
 /// of the machine cause: of that with [tool], with which it touches. Up to the first place that the machine
 /// does not reach; nothing if it does not reach the first one.
 std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
-                                    const StartTables* starts = nullptr);
+                                    const StartTables* starts = nullptr, int threads = 1);
 
 // Why a target is outside the travel of an actuator, in words.
 

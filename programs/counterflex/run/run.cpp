@@ -258,7 +258,8 @@ std::unique_ptr<Run> prepared_run(const Options& options, MachineInput machine, 
   refuse_orientation(*run);
   run->work = place_work(on, run->machine.model, shown_name(options.machine), run->program);
   refuse_tool_axis(*run);
-  add_common_shifts(on, run->machine.model, *run->starts, places, run->program, run->work.frames);
+  add_common_shifts(on, run->machine.model, *run->starts, places, run->program, options.threads,
+                    run->work.frames);
   run->uncertainties = tip_uncertainties(on, run->machine.model, run->tool_models, run->work.frames);
   if (options.samples > 0) refuse_without_uncertainty(*run, "--samples");
   run->ignored = uncontrolled_axes(on, run->work.frames);

@@ -193,7 +193,8 @@ std::string offset_name(const Overview& program, const ProgramFrame& frame) {
 }
 
 void add_common_shifts(const Machine& machine, const Model& model, const StartTables& starts,
-                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames) {
+                       const PathPlaces& places, const Overview& program, int threads,
+                       std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
   std::map<std::string, std::optional<Vector3>> shifts;  // by offset, for all its frames
   for (std::size_t i = 0; i < frames.size(); ++i) {
@@ -203,8 +204,8 @@ void add_common_shifts(const Machine& machine, const Model& model, const StartTa
     const std::string& selected = program.frames[i].work_offset;
     const auto [known, is_new] = shifts.try_emplace(selected);
     if (is_new)
-      known->second =
-          common_shift(model, pose_of_offset(frames[i], program.frames[i]), places.of(selected), &starts);
+      known->second = common_shift(model, pose_of_offset(frames[i], program.frames[i]), places.of(selected),
+                                   &starts, threads);
     frames[i].common_shift = known->second;
   }
 }

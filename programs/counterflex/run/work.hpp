@@ -42,6 +42,7 @@ std::string offset_name(const Overview& program, const ProgramFrame& frame);
 
 /// Computes the common shift of the frames in use without a datum. `places` are those of the program.
 void add_common_shifts(const Machine& machine, const Model& model, const StartTables& starts,
-                       const PathPlaces& places, const Overview& program, std::vector<WorkFrame>& frames);
+                       const PathPlaces& places, const Overview& program, int threads,
+                       std::vector<WorkFrame>& frames);
 
 }  // namespace counterflex::cli
