@@ -36,13 +36,14 @@ TEST_CASE("a cursor from anywhere reads the same wrenches and breaks") {
 }
 
 TEST_CASE("where a segment follows another in its feed run the start has the wrench of the end before it") {
-  const std::string rows = "line,fx_N,fy_N,fz_N\n1,10,0,0\n5,20,0,0\n";
+  const std::string rows = "line,fx_N,fy_N,fz_N\n1,10,0,0\n3,15,0,0\n5,20,0,0\n";
   for (const double blend : {0.0, 2 * mm}) {
     const auto forces = forces_on(sample_program(), from_csv(on_tool + rows, blend));
     for (std::size_t i = 0; i < 6; ++i) {
       CAPTURE(i);
       const bool joins = i == 2 || i == 5;  // the others are rapids, or follow them
       CHECK(forces.follows(i) == (joins && blend > 0));
+      CHECK(forces.begins_with_step(i) == (i == 2 && blend == 0));
       if (forces.follows(i)) CHECK(forces.at(i, 0) == forces.at(i - 1, 1));
     }
   }

@@ -49,7 +49,7 @@ Waypoint random_waypoint(Thousandths& random, std::size_t segment, int line) {
 /// A feed run that starts where `w` is.
 Waypoint start_of(Waypoint w) {
   w.between = w.place = true;
-  w.fraction = 0;
+  w.fraction = w.weight = 0;
   return w;
 }
 

@@ -188,11 +188,6 @@ inline bool tool_cuts_at(const Program& program, const Waypoint& w) {
   return w.cutting || is_place_of_cycle(program, w);
 }
 
-/// Whether it is the start of a feed run, under the force that acts there.
-inline bool begins_feed_run(const Waypoint& w) {
-  return w.place && w.between && w.fraction == 0;
-}
-
 /// The wanted place of a waypoint on its machine.
 inline TipPosition wanted_at(const Model& model, const Waypoint& w) {
   return {&model, w.p_MT, w.R_MT ? std::optional(*w.R_MT) : std::nullopt};
@@ -222,7 +217,9 @@ struct ForwardRun {
 ///
 /// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces)
 /// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)
-/// and 22.5 degrees of an arc, on all of its turns. They do not depend on the pieces. `before` and its causes
+/// and 22.5 degrees of an arc, on all of its turns. Where the force steps, a joint reverses or the tool
+/// changes there are two: under what acts before, and under what acts behind it. They do not depend on the
+/// pieces. `before` and its causes
 /// count there: all runs over one program with one tolerance agree on them. Corners of a line of one step are
 /// no places where the bound of its cells, with the corners, is within a tenth of the tolerance and the force
 /// is not larger than at its ends.

@@ -35,6 +35,9 @@ class PathDirections {
   /// At a fraction of a move: inside it, of the motion that ends or that begins there; at its ends its own.
   Directions at(std::size_t move, double u, Side side) const;
 
+  /// Where a move begins, of the motion that ends there.
+  Directions before(std::size_t move) const;
+
   /// Fractions inside a move at which a joint reverses, increasing.
   std::vector<double> inside(std::size_t move) const;
 

@@ -219,6 +219,9 @@ class PathForces {
   /// Whether a segment's start is the end of the one before it, with the same wrench.
   bool follows(std::size_t segment) const;
 
+  /// Whether the wrench steps where a segment begins inside its feed run.
+  bool begins_with_step(std::size_t segment) const;
+
   /// Whether the wrench is linear between breaks: what is blended has steps, and no slopes.
   bool is_linear_between_breaks() const { return is_linear_between_breaks_; }
 

@@ -319,6 +319,12 @@ Directions PathDirections::at(std::size_t move, double u, Side side) const {
   return behind == changes_.begin() ? first_ : std::prev(behind)->behind;
 }
 
+Directions PathDirections::before(std::size_t move) const {
+  const auto behind = std::ranges::partition_point(
+      changes_, [&](const DirectionChange& change) { return change.move < move; });
+  return behind == changes_.begin() ? first_ : std::prev(behind)->behind;
+}
+
 std::vector<double> PathDirections::inside(std::size_t move) const {
   std::vector<double> fractions;
   const auto is_before = [&](const DirectionChange& change) { return change.move < move; };

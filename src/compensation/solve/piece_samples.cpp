@@ -100,14 +100,14 @@ bool is_where_the_last_ended(Slice& slice, const SampledPiece& sampled) {
 // Without a blend the force may begin with a step. No end of a piece before shows it either.
 std::size_t add_start(Slice& slice, std::size_t t) {
   const SampledPiece& sampled = slice.pieces[t];
-  const bool listed =
-      sampled.begins_run || sampled.begins_elsewhere || slice.job.options.blend == 0 || slice.questions.bands;
+  const bool listed = sampled.starts_at_place || sampled.begins_elsewhere || slice.job.options.blend == 0 ||
+                      slice.questions.bands;
   if (!listed && is_where_the_last_ended(slice, sampled)) return slice.samples.size() - 1;
   return add_sample(slice, {.piece = t,
                             .v = 0,
                             .u = sampled.piece->u0,
                             .between = true,
-                            .place = sampled.begins_run,
+                            .place = sampled.starts_at_place,
                             .listed = listed,
                             .side = Side::after});
 }
@@ -115,7 +115,6 @@ std::size_t add_start(Slice& slice, std::size_t t) {
 // The other side of a step of the force, or of a reversal; the same sample without either.
 std::size_t add_behind_step(Slice& slice, std::size_t before) {
   PieceSample behind = slice.samples[before];
-  behind.place = false;
   behind.side = Side::after;
   if (!(directions_of(slice, behind) == slice.requests[before].directions)) return add_sample(slice, behind);
   if (slice.job.options.blend > 0) return before;
@@ -151,7 +150,7 @@ void add_samples(Slice& slice, std::size_t t) {
   const bool ends_at_place = sampled.segment == nullptr || std::ranges::binary_search(fractions, piece.u1);
   const PieceSample end{.piece = t, .v = 1, .u = piece.u1, .place = ends_at_place};
   if (!slice.questions.inside || piece.end_only) {
-    if (sampled.begins_run) add_start(slice, t);
+    if (sampled.starts_at_place) add_start(slice, t);
     add_sample(slice, end);
     return;
   }
@@ -174,6 +173,27 @@ void add_samples(Slice& slice, std::size_t t) {
   }
 }
 
+// Whether a feed piece begins a feed run, or under another force, motion or tool than the path before it
+// ended.
+bool starts_at_place(const Job& job, const Piece& piece) {
+  const Segment& segment = job.path.segments[piece.segment];
+  if (!segment.cutting) return false;
+  const bool inside = piece.u0 > 0;
+  if (!inside && job.forces.begins_run(piece.segment)) return true;
+  if (job.options.blend == 0) {
+    const auto at = [&](Side side) { return job.forces.at(piece.segment, piece.u0, side); };
+    if (inside ? at(Side::before) != at(Side::after) : job.forces.begins_with_step(piece.segment))
+      return true;
+  }
+  if (job.directions != nullptr) {
+    const Directions before =
+        inside ? directions_at(job, piece.move, piece.u0, Side::before) : job.directions->before(piece.move);
+    if (!(before == directions_at(job, piece.move, piece.u0, Side::after))) return true;
+  }
+  const Move* last = inside || job.tools == nullptr ? nullptr : move_before(job.program, piece.move);
+  return last != nullptr && &model_with(job.model, job.tools, last->tool) != &model_of(job, piece.move);
+}
+
 void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional<Vector3>& command) {
   const Vector3* last = command ? &*command : nullptr;
   slice.pieces.reserve(pieces.size());
@@ -182,12 +202,11 @@ void add_pieces(Slice& slice, std::span<const Piece> pieces, const std::optional
   slice.requests.reserve(2 * pieces.size());
   for (const Piece& piece : pieces) {
     const bool position = piece.segment == no_segment;
-    slice.pieces.push_back(
-        {.piece = &piece,
-         .segment = position ? nullptr : &slice.job.path.segments[piece.segment],
-         .model = &model_of(slice.job, piece.move),
-         .begins_elsewhere = last == nullptr || *last != piece.commanded.start,
-         .begins_run = !position && piece.u0 == 0 && slice.job.forces.begins_run(piece.segment)});
+    slice.pieces.push_back({.piece = &piece,
+                            .segment = position ? nullptr : &slice.job.path.segments[piece.segment],
+                            .model = &model_of(slice.job, piece.move),
+                            .begins_elsewhere = last == nullptr || *last != piece.commanded.start,
+                            .starts_at_place = !position && starts_at_place(slice.job, piece)});
     last = &piece.commanded.end;
     add_samples(slice, slice.pieces.size() - 1);
   }

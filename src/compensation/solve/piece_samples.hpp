@@ -12,7 +12,7 @@ struct SampledPiece {
   const Segment* segment = nullptr;  ///< none: a position
   const Model* model = nullptr;
   bool begins_elsewhere = false;  ///< the piece before it ended elsewhere
-  bool begins_run = false;        ///< its start is a place of the original path
+  bool starts_at_place = false;   ///< its start is a place of the original path
 };
 
 /// A place on a piece: fraction `v` of the piece, `u` of the segment.

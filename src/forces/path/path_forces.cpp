@@ -244,6 +244,16 @@ bool PathForces::follows(std::size_t segment) const {
   return place.run == before.run && place.s0 == before.s1 && runs_[place.run].blend > 0;
 }
 
+bool PathForces::begins_with_step(std::size_t segment) const {
+  const Place& place = places_[segment];
+  if (place.run == no_run || runs_[place.run].blend > 0 || begins_run(segment)) return false;
+  const FeedRun& run = runs_[place.run];
+  ForceCursor cursor;
+  const ForcePiece &before = piece_at(pieces_, run, place.s0, Side::before, cursor.from),
+                   &after = piece_at(pieces_, run, place.s0, Side::after, cursor.to);
+  return differ(value(before, place.s0), value(after, place.s0));
+}
+
 Vector6 PathForces::at(std::size_t segment, double fraction, Side side) const {
   ForceCursor cursor;
   return at(segment, fraction, side, cursor);

@@ -215,15 +215,10 @@ void PathTally::add_to_operation(const Waypoint& w, std::int32_t operation) {
 }
 
 // Trapezoidal rule: the length between two places counts half for each, or fully for the last one if the
-// other is unknown.
+// other is unknown. It is zero where a feed run begins, and between the two places of a step.
 void PathTally::add_place(const Waypoint& w, std::int32_t operation, const MoveFacts& facts) {
-  if (begins_feed_run(w)) {
-    finish_end();
-    end_ = End{w, operation, 0, 0, facts};
-    return;  // its length is part of the length to the next place
-  }
   const double share = end_ ? place_weight_ / 2 : 0;
-  if (end_) share_piece(w, operation, share);
+  if (end_ && place_weight_ > 0) share_piece(w, operation, share);
   finish_end();
   const double rest = place_weight_ - share;
   end_ = End{w, operation, rest, rest, facts};

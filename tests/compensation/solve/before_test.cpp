@@ -68,6 +68,7 @@ TEST_CASE("predict, verify and compensate find the same deviation before, at the
   const ForceSource forces[] = {{},
                                 constant_force(milling()),
                                 constant_force(milling(), 0),
+                                step_profile("0, 50, 0, 0\n60, 215, -10, -25\n140, 20, 100, -25\n", 0),
                                 step_profile("0, 50, 0, 0\n60, 215, -10, -25\n140, 20, 100, -25\n", 2e-3)};
   for (const ForceSource& force : forces)
     for (const bool in_batches : {false, true}) {
@@ -82,6 +83,29 @@ TEST_CASE("predict, verify and compensate find the same deviation before, at the
                                .text = all_ways,
                                .force = force,
                                .in_batches = in_batches});
+    }
+}
+
+TEST_CASE(
+    "where the force steps the deviation before is known on both sides, where a move begins and inside it") {
+  const Shop shop({.machine = load_machine(small_mill),
+                   .text = "G21 G90 F500\nG0 X0 Y0 Z0\nG1 X50\nG1 X100\nM30\n",
+                   .force = step_profile("0, 0, 0, 0\n50, 500, 0, 0\n72, 0, 0, 0\n", 0)});
+  const ForwardRun predicted = solve_pieces(shop.job(), original_pieces(shop.job()), {.inside = false});
+  const auto at = [](const std::vector<Waypoint>& waypoints, double s_mm, double force) {
+    return std::ranges::find_if(waypoints, [&](const Waypoint& w) {
+      return w.place && std::abs(w.s - s_mm * mm) < 1e-9 && w.wrench.x() == force;
+    });
+  };
+  const Compensation written = compensated(shop);
+  for (const std::vector<Waypoint>& waypoints : {predicted.waypoints, written.waypoints})
+    for (const double s_mm : {50.0, 72.0}) {
+      CAPTURE(s_mm);
+      const auto free = at(waypoints, s_mm, 0), loaded = at(waypoints, s_mm, 500);
+      REQUIRE(free != waypoints.end());
+      REQUIRE(loaded != waypoints.end());
+      CHECK((loaded->before - free->before).head<3>().norm() > 5e-6);
+      CHECK(free->weight + loaded->weight > 0);
     }
 }
 
