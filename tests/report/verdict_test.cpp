@@ -106,7 +106,7 @@ TEST_CASE("a share and a deviation are never rounded to a passing value") {
   CHECK(partly_reason(moves, 0.005) == "99.9 % of the cutting length, worst 0.00500004 mm > 0.005");
   moves.within_mm = 0.001;
   moves.worst_mm = 0.00501;
-  CHECK(partly_reason(moves, 0.005) == "0.1 % of the cutting length, worst 0.00501 mm > 0.005");
+  CHECK(partly_reason(moves, 0.005) == "less than 0.1 % of the cutting length, worst 0.00501 mm > 0.005");
   moves.within_mm = 0;
   CHECK(partly_reason(moves, 0.005).starts_with("0 % of the cutting length"));
 }

@@ -81,10 +81,11 @@ struct FreeSpin {
 /// What stays as programmed because the deviation is below its own band (--only-significant). It is read from
 /// the written text: a target without a correction counts.
 struct AsProgrammed {
-  std::size_t targets = 0, left = 0;   ///< ends of moves that were solved; of them without a correction
-  double length_mm = 0, left_mm = 0;   ///< of feed moves; of them without a correction from end to end
-  double largest_mm = 0, band_mm = 0;  ///< largest deviation of feed moves that is left there, and its band
-  int largest_line = 0;                ///< 0: nothing is left
+  std::size_t targets = 0, left = 0;  ///< ends of moves that were solved; of them without a correction
+  double length_mm = 0, left_mm = 0;  ///< of feed moves; of them without a correction from end to end
+  double largest_mm = 0,
+         band_mm = 0;    ///< largest deviation of feed moves and holes that is left, and its band
+  int largest_line = 0;  ///< 0: nothing is left
 };
 
 /// What only the caller of a run knows. Inputs and options keep their order in the report.

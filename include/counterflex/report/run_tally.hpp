@@ -149,8 +149,8 @@ class OperationNames {
 /// Collects what stays as programmed.
 class AsProgrammedTally {
  public:
-  /// The next waypoint of a run with `only_significant`.
-  void add(const Waypoint& w);
+  /// The next waypoint of a run with `only_significant`. `cuts`: `tool_cuts_at` it.
+  void add(const Waypoint& w, bool cuts);
   const AsProgrammed& found() const { return found_; }
 
  private:
@@ -216,7 +216,7 @@ class RunTally {
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_travel(const Waypoint& w, const Job& window, double u_before);
-  void add_as_programmed(const Waypoint& w);
+  void add_as_programmed(const Waypoint& w, bool cuts);
   void add_reversals(const Job& window);
   ToolSize size_of(long tool) const;
   MoveFacts facts_of(const Job& window, const Waypoint& w) const;

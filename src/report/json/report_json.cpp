@@ -86,18 +86,22 @@ Json left_alone_json(const Capped<LeftAlone>& blocks) {
   return rows;
 }
 
-Json blocks_json(const BlockCounts& blocks) {
+Json blocks_json(const RunReport& report) {
+  const BlockCounts& blocks = report.blocks;
+  const bool is_known =
+      report.command == Command::verify || (report.command == Command::compensate && !report.failure);
+  const auto known = [&](std::size_t count) { return is_known ? Json(count) : Json(nullptr); };
   const auto others = [&](std::size_t OtherMoves::*count) {
-    return blocks.others ? Json(*blocks.others.*count) : Json(nullptr);
+    return blocks.others ? known(*blocks.others.*count) : Json(nullptr);
   };
   return {{"total", blocks.total},
           {"moves", blocks.moves},
-          {"corrected", blocks.corrected},
+          {"corrected", known(blocks.corrected)},
           {"corrected_in_part", others(&OtherMoves::in_part)},
           {"grouped", others(&OtherMoves::grouped)},
           {"held", others(&OtherMoves::held)},
           {"not_corrected", others(&OtherMoves::left)},
-          {"inserted", blocks.inserted},
+          {"inserted", known(blocks.inserted)},
           {"left_alone_count", blocks.left_alone.count},
           {"left_alone", left_alone_json(blocks.left_alone)},
           {"machine_positions_count", blocks.machine_positions.count},
@@ -353,7 +357,7 @@ std::string to_json(const RunReport& report) {
                    {"feed_moves", feed_moves_json(report)},
                    {"forces", forces_json(report)},
                    {"loads", largest_loads_json(report.loads)},
-                   {"blocks", blocks_json(report.blocks)},
+                   {"blocks", blocks_json(report)},
                    {"text", text_json(report)},
                    {"control", control_json(report.control)},
                    {"assumptions", assumptions_json(report)},

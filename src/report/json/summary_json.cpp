@@ -157,16 +157,17 @@ Json tools_off_json(const std::vector<ToolReport>& tools) {
 }  // namespace
 
 Json summary_json(const RunReport& report) {
-  return {{"before", optional_statistics(report.before)},
-          {"after", optional_statistics(report.after)},
-          {"sources", sources_json(report)},
-          {"sensitivity", sensitivity_json(report.sensitivity)},
-          {"air", largest_json(report.air)},
-          {"correction", largest_json(report.correction)},
-          {"corrected_percent", optional_number(report.corrected_percent)},
-          {"path_mm", number(report.path_mm, summary_digits)},
-          {"common_shift", common_shift_json(report.common_shift)},
-          {"tool_deviations", tools_off_json(report.tools_off)}};
+  return {
+      {"before", optional_statistics(report.before)},
+      {"after", optional_statistics(report.after)},
+      {"sources", sources_json(report)},
+      {"sensitivity", sensitivity_json(report.sensitivity)},
+      {"air", largest_json(report.air)},
+      {"correction", largest_json(report.correction)},
+      {"corrected_percent", optional_number(report.corrected_percent)},
+      {"path_mm", report.before || !report.failure ? number(report.path_mm, summary_digits) : Json(nullptr)},
+      {"common_shift", common_shift_json(report.common_shift)},
+      {"tool_deviations", tools_off_json(report.tools_off)}};
 }
 
 }  // namespace counterflex

@@ -29,12 +29,15 @@ Json bands_json(const BandStatistics& bands) {
 }
 
 Json as_programmed_json(const AsProgrammed& found) {
-  const double percent = found.length_mm > 0 ? 100 * found.left_mm / found.length_mm : 0;
+  const auto known = [](bool is_known, double value) {
+    return is_known ? number(value, band_digits) : Json(nullptr);
+  };
+  const bool is_any_left = found.largest_line > 0;
   return {{"targets", found.targets},
           {"as_programmed", found.left},
-          {"length_percent", number(percent, band_digits)},
-          {"largest_mm", number(found.largest_mm, band_digits)},
-          {"band_mm", number(found.band_mm, band_digits)},
+          {"length_percent", known(found.length_mm > 0, 100 * found.left_mm / found.length_mm)},
+          {"largest_mm", known(is_any_left, found.largest_mm)},
+          {"band_mm", known(is_any_left, found.band_mm)},
           {"line", found.largest_line}};
 }
 

@@ -70,16 +70,16 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     }
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
-    if (window.options.only_significant) add_as_programmed(w);
+    if (window.options.only_significant) add_as_programmed(w, tool_cuts_at(window.program, w));
     add(w, operation, facts, miss <= window.options.tolerance);
     if (w.status == Status::converged) add_to_travel(w, window, fraction_before(before, w));
     before = &w;
   }
 }
 
-void RunTally::add_as_programmed(const Waypoint& w) {
+void RunTally::add_as_programmed(const Waypoint& w, bool cuts) {
   if (!as_programmed_) as_programmed_.emplace();
-  as_programmed_->add(w);
+  as_programmed_->add(w, cuts);
 }
 
 void RunTally::add_to_travel(const Waypoint& w, const Job& window, double u_before) {

@@ -19,7 +19,8 @@ std::string percent_text(double part, double all) {
   const double percent = 100 * part / all;
   if (is_whole(part, all) || percent == 0) return fmt::format("{:.0f} %", percent);
   if (percent > 1 && percent < 99) return fmt::format("{:.0f} %", percent);
-  return fmt::format("{} %", format_fixed(std::max(std::floor(10 * percent) / 10, 0.1), 1));
+  if (percent < 0.1) return "less than 0.1 %";
+  return fmt::format("{} %", format_fixed(std::floor(10 * percent) / 10, 1));
 }
 
 /// With enough digits to differ from the tolerance.

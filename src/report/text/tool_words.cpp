@@ -71,7 +71,7 @@ std::string tool_rows(const RunReport& report) {
   const std::size_t shown = std::min(shown_tools, report.tools_off.size());
   for (std::size_t i = 0; i < shown; ++i) text += rows_of(report.tools_off[i]);
   if (report.tools_off.size() > shown)
-    text += fmt::format("  and {} more tools: see the report\n", report.tools_off.size() - shown);
+    text += fmt::format("  and {} more tools: --report shows them\n", report.tools_off.size() - shown);
   return text;
 }
 

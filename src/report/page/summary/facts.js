@@ -128,7 +128,8 @@
     const text = ({only_significant: left}) => {
       if (!left) return unknown;
       const largest = left.line > 0 ? `, largest deviation ${units.format(left.largest_mm)} \u00b1 ${units.format(left.band_mm)}, ${words.inLine(left.line)}` : '';
-      return `${left.as_programmed} of ${words.counted(left.targets, 'target')}, ${fixed(left.length_percent, 0)} % of the feed length${largest}`;
+      const share = known(left.length_percent) ? `, ${fixed(left.length_percent, 0)} % of the feed length` : '';
+      return `${left.as_programmed} of ${words.counted(left.targets, 'target')}${share}${largest}`;
     };
     if (!runs.some((run) => run.report.only_significant)) return [];
     return [['As programmed, below the band', ...runs.map((run) => text(run.report))]];

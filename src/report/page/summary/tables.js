@@ -90,7 +90,7 @@
     const line = (list, quantity) => [...list.map((s, run) => link(s, run, quantity)), ...(runs.length === 2 ? [''] : [])];
     rows.splice(1, 0, ['  in program line', ...line(before, 'before_mm'), ...(corrected ? line(after, 'after_mm') : [])]);
     if (before.some((_, r) => runs[r].report.summary.common_shift)) rows.splice(2, 0, ...shiftRows(runs, units, corrected));
-    const lengths = runs.map((run) => units.length(run.report.summary.path_mm)).join(' and ');
+    const lengths = runs.map(({report}) => (known(report.summary.path_mm) ? units.length(report.summary.path_mm) : unknown)).join(' and ');
     return [table('Deviation of the tool tip', columns, rows), runs.map((_, run) => toolDeviations(context, run)),
       el('p', {class: 'note'}, `Over ${lengths} of feed moves, weighted by length. `,
           corrected ? 'After: model residual, the deviation that the model leaves. It is not the accuracy of the part.' : '')];
