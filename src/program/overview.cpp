@@ -20,7 +20,7 @@ void add_tool(std::vector<long>& tools, long tool) {
   if (at == tools.end() || *at != tool) tools.insert(at, tool);
 }
 
-/// Whether the frame of a move matters: a coordinate of its start or its end is known.
+/// Whether a coordinate of the start or of the end of a move is known.
 bool has_place(const Move& move) {
   const auto is_known = [](bool known) { return known; };
   return std::ranges::any_of(move.known_start, is_known) || std::ranges::any_of(move.known_end, is_known);
@@ -31,7 +31,8 @@ void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
   const Move* before = nullptr;
   for (const Move& move : moves) {
     int& frame_line = overview.frame_lines[move.frame];
-    if (frame_line == 0 && has_place(move)) frame_line = move.line;
+    const bool is_selected = move.frame != 0;
+    if (frame_line == 0 && (is_selected || has_place(move))) frame_line = move.line;
     if (before == nullptr || move.tool != before->tool) add_tool(overview.tools, move.tool);
     before = &move;
   }

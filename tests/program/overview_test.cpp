@@ -89,7 +89,7 @@ TEST_CASE("an overview summarises the whole program") {
   CHECK(overview.first_cycle_line == 11);
 }
 
-TEST_CASE("a frame is used by the first move in it that has a known coordinate") {
+TEST_CASE("a selected frame is used by each move in it, that before any selection by a known coordinate") {
   const auto lines = [](const std::string& text, const char* file) {
     return overview_of(read_program(text, file, {})).frame_lines;
   };
@@ -97,6 +97,7 @@ TEST_CASE("a frame is used by the first move in it that has a known coordinate")
   CHECK(lines("DEF job()\nINI\n$BASE=BASE_DATA[1]\n" + move + "END\n", "job.src") == std::vector<int>{0, 4});
   CHECK(lines("DEF job()\nINI\n" + move + "INI\nEND\n", "job.src") == std::vector<int>{3});
   CHECK(lines("DEF job()\nINI\nEND\n", "job.src") == std::vector<int>{0});
+  CHECK(lines("G21 G90 G54\nG0 X0 Y0 Z5\nG55 G1 X#1 F100\nM2\n", "part.ngc") == std::vector<int>{0, 2, 3});
 }
 
 TEST_CASE("an overview has the first feed move without a tool number; rapids need no tool") {

@@ -24,7 +24,8 @@ struct Overview {
   int lines = 0;               ///< `text_lines`, or the line of the last move if that is larger
   long last_block_number = 0;  ///< the largest N of a move
   std::vector<ProgramFrame> frames{{}};
-  /// Line of the first move in the frame with a known coordinate, by index into `frames`; 0: none.
+  /// Line of the first move in the frame, by index into `frames`; 0: none. Before an offset is selected only
+  /// moves with a known coordinate count.
   std::vector<int> frame_lines;
   std::vector<long> tools;  ///< in the spindle during a move, each once, ascending; 0: unknown
   std::vector<Remark> remarks;

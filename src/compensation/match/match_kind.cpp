@@ -7,6 +7,7 @@
 
 #include "compensation/match/match_moves.hpp"
 #include "compensation/plan/places.hpp"
+#include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"

@@ -13,6 +13,7 @@
 #include "program/expand/expand.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/text/force_comment.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {

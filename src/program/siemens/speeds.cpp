@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/files/text.hpp"
+#include "program/expand/control_flow.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {

@@ -1,5 +1,7 @@
 #include "report/json/summary_json.hpp"
 
+#include <fmt/format.h>
+
 #include "report/json/uncertainty_json.hpp"
 
 namespace counterflex {
