@@ -32,11 +32,17 @@ std::optional<std::string> fixture_name(const Block& block, const Reading& r, co
   return fmt::format("G{}", 53 + count_of(p));
 }
 
+/// Whether a code of the block besides its work offset uses P.
+bool has_other_p(const Reading& r) {
+  SortedBlock others = r.sorted;
+  std::erase_if(others.g, [](const FoundG& g) { return g.code->action == Action::work_offset; });
+  return (used_letters(others, r.dialect, Context::plain) & letter_bit('P')) != 0;
+}
+
 /// "G54", "G59.3", "G54.1 P3" (G154 P3 and G112 of Haas, G54 P3 of Fanuc).
 std::optional<std::string> offset_name(const Block& block, const Reading& r, const FoundG& offset) {
   const Word* p = r.sorted.word('P');
-  if (r.dialect.family == mach3_family && p != nullptr && !r.sorted.has(Action::dwell) &&
-      !r.sorted.has(MAction::call))
+  if (r.dialect.family == mach3_family && p != nullptr && !has_other_p(r))
     return fixture_name(block, r, offset);
   if (offset.code->tenths >= 1100 && offset.code->tenths <= 1290)
     return fmt::format("G54.1 P{}", offset.code->tenths / 10 - 109);

@@ -19,7 +19,7 @@ std::string length_text(double value, const ModalState& state) {
   return fmt::format("{} inch = {:.6g} mm", value, value * mm_per(*state.unit));
 }
 
-/// Only LinuxCNC has P and Q of G64.
+/// P and Q of G64 are read as those of LinuxCNC. Other controls may have neither.
 std::string blend_text(const Reading& reading, const FoundG& blend) {
   const Word* p = reading.sorted.word('P');
   const Word* q = reading.sorted.word('Q');

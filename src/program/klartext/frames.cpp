@@ -65,10 +65,9 @@ void select_preset(const KlartextBlock& block, KlartextReading& r, std::string p
   r.state.basic_rotation_deleted = false;
   end_frame(r);
   // A preset ends the shift, the mirror image, the rotation and the scales, but not the tilt (cycle 19,
-  // PLANE).
+  // PLANE). From M143 on the same preset has no basic rotation.
   r.state.unfollowed_shift.fill(false);
-  for (const int number : {7, 8, 10, 11, 26, basic_rotation, trans_datum, trans_other})
-    r.state.displacements.erase(number);
+  for (const int number : {7, 8, 10, 11, 26, trans_datum, trans_other}) r.state.displacements.erase(number);
   r.state.known.fill(false);
   r.state.run_begin = r.program.moves.size();
   if (r.state.preset.empty()) {

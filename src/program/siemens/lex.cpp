@@ -62,6 +62,15 @@ void state(Scanner& s, Statement statement) {
   s.block.statement_text = {begin, s.at};
 }
 
+/// "REAL", "STRING[20]": the name of the type.
+Span lex_type(Scanner& s) {
+  const Span type{s.at, s.at + siemens_name_at(s).size()};
+  s.at = type.end;
+  s.skip_blanks();
+  if (s.peek() == '[') skip_siemens_index(s);
+  return type;
+}
+
 /// "PROC POCKET(REAL WIDTH, VAR INT COUNT=3)": the parameters, whose values are not known.
 void lex_parameters(Scanner& s) {
   while (s.at < s.end && s.peek() != '(' && s.peek() != ';') ++s.at;
@@ -69,13 +78,8 @@ void lex_parameters(Scanner& s) {
   while (s.at < end && s.peek() != ';') {
     const std::size_t begin = ++s.at;
     s.skip_blanks();
-    Span type{s.at, s.at + siemens_name_at(s).size()};
-    if (is_word(part(s.text, type), "VAR")) {
-      s.at = type.end;
-      s.skip_blanks();
-      type = {s.at, s.at + siemens_name_at(s).size()};
-    }
-    s.at = type.end;
+    Span type = lex_type(s);
+    if (is_word(part(s.text, type), "VAR")) type = lex_type(s);
     s.skip_blanks();
     const Span name{s.at, s.at + siemens_name_at(s).size()};
     while (s.at < end && s.peek() != ',') ++s.at;
@@ -107,8 +111,7 @@ bool lex_structure(Scanner& s, std::string_view name) {
 void lex_declaration(Scanner& s) {
   s.at += siemens_name_at(s).size();
   s.skip_blanks();
-  const Span type{s.at, s.at + siemens_name_at(s).size()};
-  s.at = type.end;
+  const Span type = lex_type(s);
   for (s.skip_blanks(); s.at < s.end && s.peek() != ';'; s.skip_blanks()) {
     const std::size_t begin = s.at;
     s.at += siemens_name_at(s).size();

@@ -334,6 +334,8 @@ TEST_CASE("P of G59 selects a work offset of Mach3 by its number") {
     return program.frames[program.moves[0].frame].work_offset;
   };
   CHECK(offset("G59 P3") == "G56");
+  for (const char* const block : {"G54 G64 P0.5", "G10 L2 P1 X0 Y0 Z0 G54", "G54 G82 X1 Y1 Z-1 R2 P0.5 F100"})
+    CHECK(offset(block) == "G54");
   CHECK(offset("G59") == "G59");
   CHECK(diagnostic_of([&] { offset("G59 P7"); }).find("G59 P7 selects a work offset") != std::string::npos);
   CHECK(diagnostic_of([&] { offset("G54 P20"); }).find("G54 P20 selects a work offset") != std::string::npos);

@@ -126,7 +126,8 @@ TEST_CASE("klartext: PRESET, FUNCTION and M143 change the coordinates") {
         std::string("CYCL DEF 247 Q339=+3\nPRESET SELECT #4"), std::string("PRESET CORR X+2"),
         std::string("PRESET SELECT \"NEW\" KEEP TRANS"), std::string("FUNCTION PARAXMODE X Y W"),
         std::string("FUNCTION MODE TURN"), std::string("FUNCTION TCPM F TCP AXIS POS PATHCTRL AXIS"),
-        moves + "L M143", std::string("/L M143"), "L M143\nPRESET SELECT #3\n" + moves + "L M143"}) {
+        moves + "L M143", std::string("/L M143"), "L M143\nPRESET SELECT #3\n" + moves + "L M143",
+        "PRESET SELECT #3\n" + moves + "L M143\nPRESET SELECT #3"}) {
     CAPTURE(blocks);
     CHECK(last(blocks).fixed[0]);
   }

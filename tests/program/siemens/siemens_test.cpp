@@ -361,10 +361,12 @@ TEST_CASE("siemens: an assignment alone to a name that is not a variable may mov
 }
 
 TEST_CASE("siemens: an assignment alone to a variable moves no axis") {
-  for (const char* const line : {"_DEPTH=5", "R1=5 R[2]=R1", "H1=3", "S1=300 M1=3", "LIMS=2000", "FINEA[X]",
-                                 "DEF REAL DEPTH=3,WIDTH[2]\nDEPTH=2 width[1]=5",
-                                 "PROC PART(REAL DEPTH,VAR INT COUNT)\nDEPTH=2 COUNT=1", "$AC_TIMER[1]=0",
-                                 "SPOS[1]=90", "TRANS\n_GUD[1,2]=5"}) {
+  for (const char* const line :
+       {"_DEPTH=5", "R1=5 R[2]=R1", "H1=3", "S1=300 M1=3", "LIMS=2000", "FINEA[X]",
+        "DEF REAL DEPTH=3,WIDTH[2]\nDEPTH=2 width[1]=5",
+        "PROC PART(REAL DEPTH,VAR INT COUNT)\nDEPTH=2 COUNT=1", "$AC_TIMER[1]=0",
+        "DEF STRING[20] NAME\nNAME=\"X\"", "PROC PART(STRING [20] TEXT,VAR REAL WIDTH)\nTEXT=\"A\" WIDTH=2",
+        "SPOS[1]=90", "TRANS\n_GUD[1,2]=5"}) {
     CAPTURE(line);
     const Program program = siemens(std::string(siemens_start) + line + "\nG1 X5 F100\n");
     REQUIRE(program.moves.size() == 2);
