@@ -8,7 +8,7 @@
 namespace counterflex {
 namespace {
 
-/// Universal Robots, "The URScript Programming Language", modules motion, internals and interfaces.
+/// Functions of the control that do not move the robot.
 constexpr auto motionless_calls = std::to_array<std::string_view>({
     "sleep",
     "sync",
