@@ -145,11 +145,11 @@ TEST_CASE("probing, splines and threads are held; the position after probing is 
 }
 
 TEST_CASE("the way of a spline or a pocket is not that from its start to its end") {
-  for (const auto& [block, dialect] :
+  for (const auto& feed :
        {std::pair{"G5 I1 J1 P1 Q1 X5 Y5", "linuxcnc"}, std::pair{"G5.1 I1 J1 X5 Y5", "linuxcnc"},
         std::pair{"G13 Z-2. I5. K10. Q1. D1 F50.", "haas"}}) {
-    CAPTURE(block);
-    const Move move = read(known_start_block + block + "\n", dialect).moves.at(1);
+    CAPTURE(feed.first);
+    const Move move = read(known_start_block + feed.first + "\n", feed.second).moves.at(1);
     CHECK_FALSE(all_known(move.known_start));
     CHECK(all_known(move.known_end));
     CHECK(all_known(move.moved_only_by_program));
