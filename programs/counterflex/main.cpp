@@ -11,7 +11,6 @@
 #include "process/standard_output.hpp"
 #include "process/terminal.hpp"
 #include "process/version.hpp"
-#include "run/outputs.hpp"
 #include "settings/command_line.hpp"
 
 namespace counterflex::cli {

@@ -10,7 +10,9 @@
 #include "process/exit_status.hpp"
 #include "process/guarded.hpp"
 #include "run/compensate.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
+#include "run/run_end.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -17,7 +17,7 @@
 #include "process/version.hpp"
 #include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
 #include "settings/layers.hpp"
 
 namespace counterflex::cli {

@@ -11,7 +11,7 @@
 #include "process/exit_status.hpp"
 #include "process/version.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -8,8 +8,9 @@
 #include "counterflex/statics/nominal.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
+#include "run/command_outputs.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/run_files.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {

@@ -22,7 +22,8 @@
 #include "process/signals.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 namespace {

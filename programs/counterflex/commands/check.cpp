@@ -9,7 +9,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/formats.hpp"
 #include "process/standard_output.hpp"
-#include "run/outputs.hpp"
+#include "run/command_outputs.hpp"
 #include "run/sanity.hpp"
 #include "settings/layers.hpp"
 

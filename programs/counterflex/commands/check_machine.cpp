@@ -14,7 +14,7 @@
 #include "counterflex/report/machine_drawing.hpp"
 #include "counterflex/statics/chain.hpp"
 #include "process/read_input.hpp"
-#include "run/outputs.hpp"
+#include "run/run_files.hpp"
 #include "run/sanity.hpp"
 
 namespace counterflex::cli {

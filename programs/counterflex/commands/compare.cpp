@@ -6,8 +6,9 @@
 #include "counterflex/report/page.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
-#include "run/outputs.hpp"
+#include "run/command_outputs.hpp"
 #include "run/run.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 namespace {

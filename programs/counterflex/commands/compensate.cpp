@@ -1,6 +1,7 @@
 #include "run/compensate.hpp"
 
 #include "commands/commands.hpp"
+#include "run/run_end.hpp"
 
 namespace counterflex::cli {
 

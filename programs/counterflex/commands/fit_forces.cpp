@@ -17,7 +17,9 @@
 #include "counterflex/geometry/types.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
-#include "run/outputs.hpp"
+#include "run/command_outputs.hpp"
+#include "run/output_paths.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -9,9 +9,10 @@
 #include "commands/materials.hpp"
 #include "counterflex/compensation/tool_orientations.hpp"
 #include "process/standard_output.hpp"
-#include "run/outputs.hpp"
+#include "run/command_outputs.hpp"
 #include "run/reading.hpp"
 #include "run/run.hpp"
+#include "run/run_files.hpp"
 #include "run/work.hpp"
 
 namespace counterflex::cli {

@@ -14,9 +14,11 @@
 #include "counterflex/report/identification.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
+#include "run/command_outputs.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
 #include "run/run.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -10,7 +10,7 @@
 #include "counterflex/machine/volcomp.hpp"
 #include "process/read_input.hpp"
 #include "process/standard_output.hpp"
-#include "run/outputs.hpp"
+#include "run/command_outputs.hpp"
 
 namespace counterflex::cli {
 namespace {

@@ -10,10 +10,11 @@
 #include "counterflex/toolpath/reach.hpp"
 #include "process/standard_output.hpp"
 #include "process/version.hpp"
+#include "run/command_outputs.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
 #include "run/program_axes.hpp"
 #include "run/reading.hpp"
+#include "run/run_files.hpp"
 #include "run/work.hpp"
 #include "settings/values.hpp"
 

@@ -13,8 +13,9 @@
 #include "counterflex/statics/nominal.hpp"
 #include "process/read_input.hpp"
 #include "process/standard_output.hpp"
+#include "run/command_outputs.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/run_files.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {

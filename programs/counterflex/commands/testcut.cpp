@@ -9,8 +9,11 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/identify/coupon.hpp"
 #include "process/standard_output.hpp"
+#include "run/command_outputs.hpp"
 #include "run/cut_coupon.hpp"
-#include "run/outputs.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_end.hpp"
+#include "run/run_files.hpp"
 #include "settings/values.hpp"
 
 namespace counterflex::cli {

@@ -4,6 +4,7 @@
 #include <utility>
 
 #include "commands/commands.hpp"
+#include "run/run_end.hpp"
 
 namespace counterflex::cli {
 namespace {

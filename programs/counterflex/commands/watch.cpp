@@ -24,7 +24,7 @@
 #include "process/standard_output.hpp"
 #include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/output_paths.hpp"
 #include "settings/layers.hpp"
 #include "settings/output_names.hpp"
 

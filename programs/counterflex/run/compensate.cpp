@@ -8,6 +8,8 @@
 #include "counterflex/program/size_limit.hpp"
 #include "run/guard.hpp"
 #include "run/proof.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_end.hpp"
 #include "run/significance.hpp"
 #include "run/spin.hpp"
 #include "run/windows.hpp"

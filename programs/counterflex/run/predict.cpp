@@ -3,6 +3,7 @@
 #include <utility>
 
 #include "run/offsets.hpp"
+#include "run/run_end.hpp"
 #include "run/spin.hpp"
 #include "run/windows.hpp"
 

@@ -6,6 +6,7 @@
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
 #include "counterflex/toolpath/reach.hpp"
+#include "run/run_end.hpp"
 #include "run/windows.hpp"
 
 namespace counterflex::cli {

@@ -10,7 +10,7 @@
 #include "counterflex/report/run_tally.hpp"
 #include "process/console.hpp"
 #include "run/inputs.hpp"
-#include "run/outputs.hpp"
+#include "run/run_files.hpp"
 #include "run/work.hpp"
 #include "settings/options.hpp"
 
@@ -59,10 +59,6 @@ std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, C
 std::unique_ptr<Run> prepare_run(const Options& options, MachineInput machine, const std::string& text,
                                  Console& console);
 
-/// Throws for a machine that controls nothing (ErrorKind::machine_or_force) and for a program with the header
-/// of a corrected one (ErrorKind::program_text).
-void refuse_what_cannot_be_compensated(const Run& run);
-
 /// Whether loads along the path are computed: if causes are requested, or if the machine has load limits.
 bool wants_loads(const Run& run);
 
@@ -74,32 +70,5 @@ CsvColumns columns_of(const Options& options, const Run& run);
 
 /// The tally for waypoints and windows of the run. It has the curves of the path if a page is written.
 RunTally tally_for(const Options& options, const Run& run);
-
-/// The result of a run whose files are published.
-struct RunEnd {
-  RunReport report;
-  std::string json;  ///< of the report
-};
-
-/// Reports a finished run whose files are published. Returns the kind of its error, or none.
-using ReportEnd = std::function<std::optional<ErrorKind>(const Run&, const RunEnd&, const RunFiles&)>;
-
-/// Completes the report and publishes the run's files. Throws `InputError` (ErrorKind::transient_io).
-RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
-
-/// Prints the warnings of the report that the run has not printed.
-void print_warnings(const Run& run, const RunReport& report, Console& console);
-
-/// Prints the failure, if any. Returns its kind.
-std::optional<ErrorKind> print_failure(const Run& run, const std::optional<Failure>& failure,
-                                       Console& console);
-
-/// The same for the failure of a report, or for its verdict.
-std::optional<ErrorKind> print_failure(const Run& run, const RunReport& report, Console& console);
-
-/// Prints the result: the summary or the JSON document on standard output, or the summary on standard error
-/// if standard output has the corrected program. Then prints the failure, if any. Returns its kind.
-std::optional<ErrorKind> tell_result(const Options& options, const Run& run, const RunEnd& end,
-                                     const RunFiles& files, Console& console);
 
 }  // namespace counterflex::cli

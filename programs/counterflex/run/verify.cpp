@@ -7,6 +7,8 @@
 #include "run/guard.hpp"
 #include "run/header/header_hashes.hpp"
 #include "run/proof.hpp"
+#include "run/run_checks.hpp"
+#include "run/run_end.hpp"
 #include "run/significance.hpp"
 #include "run/windows.hpp"
 

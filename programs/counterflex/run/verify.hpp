@@ -3,6 +3,7 @@
 #include <optional>
 
 #include "run/run.hpp"
+#include "run/run_end.hpp"
 
 namespace counterflex::cli {
 

@@ -5,8 +5,8 @@
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "process/console.hpp"
-#include "run/outputs.hpp"
 #include "run/run.hpp"
+#include "run/run_files.hpp"
 
 namespace counterflex::cli {
 
