@@ -25,21 +25,6 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// Everything besides the inputs that affects the bytes of the outputs: all options, and all paths (reports
-/// contain them), with those of the data lists that the program has now.
-std::string key_of(const Layers& layers, const BatchJob& job) {
-  std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
-  for (const Setting& setting : effective_settings(Command::compensate, layers)) {
-    if (setting.option == "threads" || setting.option == "output" || setting.option == "force-overwrite")
-      continue;
-    all += setting.option + '\n';
-    for (const std::string& value : setting.values) all += value + '\n';
-  }
-  const std::vector<std::string> files = files_of_program(job.program, job.options.data_lists);
-  for (std::size_t i = 1; i < files.size(); ++i) all += files[i] + '\n';
-  return sha256(all);
-}
-
 /// Bytes of the program plus a constant for the start, weighted by method and causes. Affects only the order
 /// of jobs and their assignment to shards.
 double work_of(const BatchJob& job) {
@@ -74,7 +59,8 @@ class JobList {
     refuse_shared_files();
     std::vector<BatchJob> jobs;
     for (FoundJob& found : found_) jobs.push_back(std::move(found.job));
-    return {file_.output, std::move(jobs), std::move(files_), whole_.threads, whole_.force_overwrite};
+    return {file_.output,   std::move(jobs),        std::move(files_),
+            whole_.threads, whole_.force_overwrite, std::move(remarks_)};
   }
 
  private:
@@ -108,6 +94,12 @@ class JobList {
     job.output = *job.options.output;
     for (const std::string& list : lists_if_changed(job)) job.shared_lists.push_back(canonical_name(list));
     job.key = key_of(layers, job);
+    for (SettingRemark& remark : remarks_on_replaced(Command::compensate, layers)) {
+      const auto is_same = [&](const SettingRemark& known) {
+        return known.what == remark.what && known.where.line == remark.where.line;
+      };
+      if (std::ranges::none_of(remarks_, is_same)) remarks_.push_back(std::move(remark));
+    }
     job.work = work_of(job);
     for (const std::string& file : inputs_of(job.options))
       if (file == "-")
@@ -169,10 +161,24 @@ class JobList {
   const std::vector<Setting> none_{};
   std::map<std::string, std::vector<Setting>> projects_;
   std::vector<FoundJob> found_;
+  std::vector<SettingRemark> remarks_;
   JobFiles files_;
 };
 
 }  // namespace
+
+std::string key_of(const Layers& layers, const BatchJob& job) {
+  std::string all = fmt::format("counterflex {}\n{}\n{}\n", version, job.program, job.output);
+  for (const Setting& setting : effective_settings(Command::compensate, layers)) {
+    if (setting.option == "threads" || setting.option == "output" || setting.option == "force-overwrite")
+      continue;
+    all += setting.option + '\n';
+    for (const std::string& value : setting.values) all += value + '\n';
+  }
+  const std::vector<std::string> files = files_of_program(job.program, job.options.data_lists);
+  for (std::size_t i = 1; i < files.size(); ++i) all += files[i] + '\n';
+  return sha256(all);
+}
 
 std::vector<std::string> outputs_of(const BatchJob& job) {
   std::vector<std::string> files{job.output};

@@ -4,6 +4,7 @@
 #include <vector>
 
 #include "run/job_files.hpp"
+#include "settings/layers.hpp"
 #include "settings/options.hpp"
 
 namespace counterflex::cli {
@@ -18,6 +19,11 @@ struct BatchJob {
   std::vector<std::string> shared_lists{};
 };
 
+/// `BatchJob::key` of a job with these settings: everything besides the inputs that affects the bytes of the
+/// outputs: all options, and all paths (reports contain them), with those of the data lists that the program
+/// has now.
+std::string key_of(const Layers& layers, const BatchJob& job);
+
 /// All files that a job writes, without data lists that are written only if they change.
 std::vector<std::string> outputs_of(const BatchJob& job);
 
@@ -30,7 +36,8 @@ struct Batch {
   std::vector<BatchJob> jobs;  ///< in the order of the file, those of a glob by name; no two have one output
   JobFiles files;              ///< inputs and outputs of all jobs
   int threads = 1;             ///< for all of them together
-  bool force_overwrite = false;  ///< also replaces a foreign summary
+  bool force_overwrite = false;          ///< also replaces a foreign summary
+  std::vector<SettingRemark> remarks{};  ///< each once, as `remarks_on_replaced`
 };
 
 /// Reads `file`, finds the programs, and resolves the options of each. Priority: job, defaults of the file,

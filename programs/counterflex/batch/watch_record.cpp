@@ -22,7 +22,7 @@ Manifest read_record(const std::string& path) {
     return read_manifest(text, path, exit_number);
   } catch (const InputError&) {
     throw InputError(ErrorKind::machine_or_force, {path},
-                     "the file is damaged; remove it, and the corrected programs with data lists or parts");
+                     "the file is damaged; remove it: all programs of the folder are processed again");
   }
 }
 
@@ -39,29 +39,24 @@ WatchRecord::WatchRecord(const std::string& folder)
   }
 }
 
-bool WatchRecord::is_complete(const std::string& program, const std::string& output) const {
-  const auto found = programs_.find(program);
-  if (found == programs_.end() || found->second.output != canonical_name(output)) return true;
-  FileHashes on_disk;
-  return std::ranges::all_of(found->second.outputs,
-                             [&](const FileHash& file) { return on_disk.of(file.path) == file.sha256; });
+bool WatchRecord::is_done(const BatchJob& job, FileHashes& on_disk) const {
+  const auto found = programs_.find(job.program);
+  return found != programs_.end() && is_proven(found->second, job.key, on_disk);
 }
 
-void WatchRecord::set(const std::string& program, const std::string& output,
-                      const std::vector<FileHash>& files) {
-  JobOutcome outcome;
+void WatchRecord::set(const std::string& program, JobOutcome outcome) {
   outcome.program = fs::path(program).filename().generic_string();
-  outcome.output = canonical_name(output);
-  for (const FileHash& file : files) outcome.outputs.push_back({canonical_name(file.path), file.sha256});
+  outcome.output = canonical_name(outcome.output);
+  for (FileHash& file : outcome.outputs) file.path = canonical_name(file.path);
   const auto is_taken = [&](const FileHash& file) {
     return std::ranges::find(outcome.outputs, file.path, &FileHash::path) != outcome.outputs.end();
   };
-  const std::size_t replaced = std::erase_if(programs_, [&](const auto& known) {
+  std::erase_if(programs_, [&](const auto& known) {
     return known.first == program || known.second.output == outcome.output ||
            std::ranges::any_of(known.second.outputs, is_taken);
   });
-  if (!files.empty()) programs_.emplace(program, std::move(outcome));
-  if (replaced > 0 || !files.empty()) save();
+  programs_.emplace(program, std::move(outcome));
+  save();
 }
 
 void WatchRecord::save() const {

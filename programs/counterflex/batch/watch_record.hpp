@@ -2,15 +2,14 @@
 /// What a watch remembers of the programs of its folder when it is started again.
 #include <map>
 #include <string>
-#include <vector>
 
+#include "batch/jobs.hpp"
 #include "counterflex/batch/manifest.hpp"
 
 namespace counterflex::cli {
 
-/// The files that corrected programs consist of besides those that the settings name: parts, and data lists
-/// that have changed. Kept in FOLDER/.counterflex/watch.json. Programs are in the folder; names of outputs
-/// are canonical.
+/// The outcomes of corrected programs. Kept in FOLDER/.counterflex/watch.json. Programs are in the folder;
+/// names of outputs are canonical.
 class WatchRecord {
  public:
   /// Throws `InputError` (ErrorKind::machine_or_force) if the file is damaged.
@@ -19,13 +18,12 @@ class WatchRecord {
   /// By path of the program.
   const std::map<std::string, JobOutcome>& programs() const { return programs_; }
 
-  /// Whether each recorded file of the corrected program `output` is as it was written; true without
-  /// recorded files.
-  bool is_complete(const std::string& program, const std::string& output) const;
+  /// Whether the job was done with the same options and inputs, and its outputs are as they were written.
+  bool is_done(const BatchJob& job, FileHashes& on_disk) const;
 
-  /// Replaces what is known of a program, and of others that had one of these files. Throws `InputError`
+  /// Replaces what is known of the program, and of others that had one of its outputs. Throws `InputError`
   /// (ErrorKind::transient_io) if the file cannot be written.
-  void set(const std::string& program, const std::string& output, const std::vector<FileHash>& files);
+  void set(const std::string& program, JobOutcome outcome);
 
  private:
   void save() const;

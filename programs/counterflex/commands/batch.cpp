@@ -192,6 +192,8 @@ ExitStatus run_batch(const Options& options, Console& console) {
   if (do_ordered(
           [&](const std::string& order, const SendLine& send) { do_one(batch, order_of(order), send); }))
     return ExitStatus(std::nullopt);
+  for (const SettingRemark& remark : batch.remarks)
+    console.warning(remark.where.file, remark.where.line, remark.what);
   if (options.batch.estimate) return say_estimate(batch);
   refuse_foreign_summary(batch);
   if (options.batch.shard) return run_shard(options, batch, console);

@@ -180,9 +180,12 @@ std::optional<ErrorKind> run_map(const Options& options, Console& console) {
   else if (options.output != "-")
     write_result(to_text(map));
   write_map(map, options);
-  if (range_of(map).solved > 0) return std::nullopt;
+  const MapRange range = range_of(map);
+  if (range.solved > range.rigid) return std::nullopt;
   console.error(
-      "error: the machine has its tip at no place of the map: give another --box, or another --rpy");
+      range.solved > 0
+          ? "error: the machine is rigid at all places of the map: give its springs in the machine file"
+          : "error: the machine has its tip at no place of the map: give another --box, or another --rpy");
   return ErrorKind::not_compensated;
 }
 

@@ -12,10 +12,12 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
         "--offsets keeps the program, and --free spin changes its targets; leave one of them out");
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
-  return predict_run(options, *prepare_run(options, console), paths, console,
-                     [&](const Run& run, const RunEnd& end, const RunFiles& files) {
-                       return tell_result(options, run, end, files, console);
-                     });
+  return replacing(paths, console, [&] {
+    return predict_run(options, *prepare_run(options, console), paths, console,
+                       [&](const Run& run, const RunEnd& end, const RunFiles& files) {
+                         return tell_result(options, run, end, files, console);
+                       });
+  });
 }
 
 }  // namespace counterflex::cli

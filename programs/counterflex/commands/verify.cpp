@@ -26,13 +26,15 @@ std::vector<std::string> lists_beside_corrected(const Options& options) {
 std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
   refuse_foreign_outputs(paths, options);
-  const auto run = prepare_run(options, console);
-  ProgramFile corrected =
-      open_program("corrected", options.verify.corrected, lists_beside_corrected(options), console);
-  return verify_run(options, *run, std::move(corrected), paths, console,
-                    [&](const Run& finished, const RunEnd& end, const RunFiles& files) {
-                      return tell_result(options, finished, end, files, console);
-                    });
+  return replacing(paths, console, [&] {
+    const auto run = prepare_run(options, console);
+    ProgramFile corrected =
+        open_program("corrected", options.verify.corrected, lists_beside_corrected(options), console);
+    return verify_run(options, *run, std::move(corrected), paths, console,
+                      [&](const Run& finished, const RunEnd& end, const RunFiles& files) {
+                        return tell_result(options, finished, end, files, console);
+                      });
+  });
 }
 
 }  // namespace counterflex::cli

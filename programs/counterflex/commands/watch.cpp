@@ -49,6 +49,7 @@ BatchJob job_for(const Options& watch, const std::string& program) {
   job.options.quiet = watch.quiet;
   job.options.verbose = watch.verbose;
   job.output = job.options.output.value_or(default_output(program));
+  job.key = key_of(found.layers, job);
   return job;
 }
 
@@ -175,9 +176,10 @@ class Watch {
   /// Complete programs that are not done, and failed ones that may succeed now.
   std::vector<std::string> due() {
     std::vector<std::string> due;
+    FileHashes on_disk;
     for (const std::string& path : files_.complete()) {
       retries_.erase(path);
-      if (is_own(path) || is_done(path))
+      if (is_own(path) || is_done(path, on_disk))
         files_.set_done(path);
       else
         due.push_back(path);
@@ -195,24 +197,16 @@ class Watch {
   }
 
   /// Whether an earlier watch compensated it. Wrong settings are reported when the program starts.
-  bool is_done(const std::string& path) {
+  bool is_done(const std::string& path, FileHashes& on_disk) {
     if (!files_.is_from_start(path)) return false;
     try {
       const BatchJob job = job_for(options_, path);
-      if (!is_corrected_from(job.output, files_of_program(path, job.options.data_lists)) ||
-          !has_its_list(job) || !record_.is_complete(path, job.output))
-        return false;
+      if (!record_.is_done(job, on_disk)) return false;
       claim_outputs(job);
       return true;
     } catch (const InputError&) {
       return false;
     }
-  }
-
-  static bool has_its_list(const BatchJob& job) {
-    const std::string list = data_list_beside(job.program);
-    std::error_code ignored;
-    return list.empty() || fs::exists(corrected_list(list, job.program, job.output), ignored);
   }
 
   /// Whether a file belongs to another program, which is still there.
@@ -244,10 +238,7 @@ class Watch {
     std::erase_if(owners_, [&](const auto& owned) { return owned.second.program == job.program; });
     set_outputs(job, outputs_of(job));
     for (const FileHash& file : outcome.outputs) set_outputs(job, {file.path});
-    std::vector<FileHash> others = outcome.outputs;
-    const std::vector<std::string> named = outputs_of(job);
-    std::erase_if(others, [&](const FileHash& file) { return std::ranges::count(named, file.path) > 0; });
-    record_.set(job.program, job.output, others);
+    record_.set(job.program, outcome);
   }
 
   /// The programs of the folder, and the outputs of the others that have been compensated.

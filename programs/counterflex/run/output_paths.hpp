@@ -80,16 +80,16 @@ void refuse_foreign(const std::vector<OwnFile>& files);
 /// one is not replaced, even with --force-overwrite.
 void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
 
-/// Throws `InputError` (ErrorKind::usage) if one of `outputs` is no name of a file, has the name of one of
-/// `inputs` (also through links) or of another output, or lies in a folder that neither exists nor is one of
-/// `made`.
+/// Throws `InputError` (ErrorKind::usage) if one of `outputs` is not the name of a file, has the name of one
+/// of `inputs` (also through links) or of another output, or lies in a folder that neither exists nor is one
+/// of `made`.
 void check_paths(const std::vector<std::string>& outputs, const std::vector<std::string>& inputs,
                  const std::vector<std::string>& made = {});
 
 /// Throws `InputError` (ErrorKind::usage) if the name of a drawing, given by `option`, does not end in .svg.
 void refuse_no_svg(std::string_view option, const std::string& path);
 
-/// The stem of --report. Throws `InputError` (ErrorKind::usage) if it is no stem of file names.
+/// The stem of --report. Throws `InputError` (ErrorKind::usage) if it is not a stem of file names.
 std::string stem_of_report(const Options& options);
 
 /// Throws `InputError` (ErrorKind::usage) if the file is a part of a divided program other than `program`: it

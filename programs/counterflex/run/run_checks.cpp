@@ -49,9 +49,9 @@ void refuse_tool_axis(const Run& run) {
 
 void refuse_what_cannot_be_compensated(const Run& run) {
   if (run.machine.machine.controlled.empty())
-    throw InputError(
-        ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
-        "controlled = [] allows analyze only; list the components of the tip that the program controls");
+    throw InputError(ErrorKind::machine_or_force, {shown_name(run.machine.file.path)},
+                     "controlled = [] allows analyze and predict only; list the components of the tip that "
+                     "the program controls");
   if (run.is_corrected)
     throw InputError(
         ErrorKind::program_text, {run.program.file, 1, 1},

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <filesystem>
 #include <string>
 #include <utility>
 #include <vector>
@@ -109,6 +110,32 @@ std::string result_text(const Options& options, const RunReport& report, const R
 }
 
 }  // namespace
+
+namespace {
+
+void warn_of_older(const std::vector<std::string>& paths, Console& console) {
+  std::error_code ignored;
+  for (const std::string& path : paths)
+    if (path != "-" && std::filesystem::is_regular_file(path, ignored))
+      console.warning(path, 0, "not updated: the run failed");
+  console.finish_warnings();
+}
+
+}  // namespace
+
+std::optional<ErrorKind> replacing(const OutputPaths& paths, Console& console,
+                                   const std::function<std::optional<ErrorKind>()>& run) {
+  try {
+    const std::optional<ErrorKind> error = run();
+    if (error) warn_of_older({paths.program}, console);
+    return error;
+  } catch (const InputError& error) {
+    if (error.kind() != ErrorKind::usage)
+      warn_of_older({paths.program, paths.report_json, paths.report_csv, paths.report_page, paths.plot},
+                    console);
+    throw;
+  }
+}
 
 void print_warnings(const Run& run, const RunReport& report, Console& console) {
   for (const Remark& warning : report.warnings.rows)

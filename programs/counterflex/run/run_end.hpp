@@ -22,6 +22,11 @@ using ReportEnd = std::function<std::optional<ErrorKind>(const Run&, const RunEn
 /// Completes the report and publishes the run's files. Throws `InputError` (ErrorKind::transient_io).
 RunEnd finish_run(const Options& options, Run& run, RunReport report, const RunTally& tally, RunFiles& files);
 
+/// Does `run`, which writes `paths`. If it fails, warns of the files of an earlier run that stay: the
+/// program, and the reports too if an input is refused.
+std::optional<ErrorKind> replacing(const OutputPaths& paths, Console& console,
+                                   const std::function<std::optional<ErrorKind>()>& run);
+
 /// Prints the warnings of the report that the run has not printed.
 void print_warnings(const Run& run, const RunReport& report, Console& console);
 

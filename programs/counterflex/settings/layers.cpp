@@ -1,5 +1,8 @@
 #include "settings/layers.hpp"
 
+#include <fmt/format.h>
+#include <fmt/ranges.h>
+
 #include <algorithm>
 #include <array>
 #include <thread>
@@ -37,7 +40,44 @@ const Setting* strongest(const Layers& layers, std::string_view option) {
   return nullptr;
 }
 
+/// Of values NAME=...; empty if one has no name: "machine".
+std::vector<std::string> names_in(const Setting& setting) {
+  std::vector<std::string> names;
+  for (const std::string& value : setting.values) {
+    const std::size_t end = value.find('=');
+    if (end == std::string::npos) return {};
+    names.push_back(value.substr(0, end));
+  }
+  return names;
+}
+
 }  // namespace
+
+std::vector<SettingRemark> remarks_on_replaced(Command command, const Layers& layers) {
+  std::vector<SettingRemark> remarks;
+  for (const std::string_view option : {"work", "tool-length"}) {
+    const Setting* used = strongest(layers, option);
+    if (used == nullptr || !has_setting(command, option)) continue;
+    const std::vector<std::string> kept = names_in(*used);
+    if (kept.empty()) continue;
+    for (const std::vector<Setting>& layer : layers) {
+      const Setting* replaced_table = said_in(layer, option);
+      if (replaced_table == nullptr || replaced_table == used) continue;
+      std::vector<std::string> names = names_in(*replaced_table);
+      std::erase_if(names, [&](const std::string& name) { return std::ranges::count(kept, name) > 0; });
+      if (names.empty()) continue;
+      SettingRemark& remark = remarks.emplace_back();
+      remark.where = replaced_table->where;
+      const std::string by = used->origin == Origin::file
+                                 ? fmt::format("{}:{}", used->where.file, used->where.line)
+                                 : shown_option(option, used->origin);
+      remark.what =
+          fmt::format("{} replaces all of {}; not used: {}; give them there too if the program needs them",
+                      by, shown_option(option, replaced_table->origin), fmt::join(names, ", "));
+    }
+  }
+  return remarks;
+}
 
 std::vector<Setting> effective_settings(Command command, const Layers& layers) {
   std::vector<Setting> settings;
@@ -58,6 +98,8 @@ Options with_settings(Options options, const Layers& layers) {
       options.shares_forces = setting.origin == Origin::file;
     remark_on_name(setting, options);
   }
+  for (SettingRemark& remark : remarks_on_replaced(options.command, layers))
+    options.remarks.push_back(std::move(remark));
   name_outputs(options, settings);
   return options;
 }

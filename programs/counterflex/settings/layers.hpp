@@ -24,6 +24,9 @@ struct ProgramLayers {
 };
 ProgramLayers layers_of(const SettingSources& sources, const std::string& program);
 
+/// Of tables [work] and [tools] that an option of an earlier layer replaces: the names that it does not have.
+std::vector<SettingRemark> remarks_on_replaced(Command command, const Layers& layers);
+
 /// Adds the settings of `layers` to `options`, which have the command and the programs. Other options keep
 /// their built-in values. Throws `InputError` at the place of a value that is not allowed.
 Options with_settings(Options options, const Layers& layers);

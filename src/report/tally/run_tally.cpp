@@ -84,8 +84,9 @@ void RunTally::add_as_programmed(const Waypoint& w, bool cuts) {
 
 void RunTally::add_to_travel(const Waypoint& w, const Job& window, double u_before) {
   const Model& model = model_of(window, w.move);
-  if (model.mechanism.controlled.empty()) return;
-  for (const TipPosition& command : outermost_commands(window, w, u_before))
+  const bool is_commanded = !model.mechanism.controlled.empty();
+  for (const TipPosition& command :
+       is_commanded ? outermost_commands(window, w, u_before) : std::vector<TipPosition>())
     if (const auto rho = actuators_at(command))
       travel_.add(model.mechanism, *rho, w.line);
     else

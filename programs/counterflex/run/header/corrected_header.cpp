@@ -103,23 +103,4 @@ std::string divided_program_of(const std::string& part) {
   return {};
 }
 
-bool is_corrected_from(const std::string& output, const std::vector<std::string>& files) {
-  const std::string header = beginning_of(output);
-  std::vector<std::string> digits = program_digits(header);
-  const std::vector<std::string> lists = digits_of(header, "DATA LIST");
-  if (digits.empty()) return false;
-  digits.resize(1);
-  digits.insert(digits.end(), lists.begin(), lists.end());
-  if (digits.size() != files.size()) return false;
-  try {
-    for (std::size_t i = 0; i < files.size(); ++i) {
-      FileReader bytes(files[i]);
-      if (!sha256(bytes).starts_with(digits[i])) return false;
-    }
-    return true;
-  } catch (const InputError&) {
-    return false;
-  }
-}
-
 }  // namespace counterflex::cli

@@ -1,7 +1,6 @@
 #pragma once
 /// Recognises the header of corrected programs.
 #include <string>
-#include <vector>
 
 namespace counterflex::cli {
 
@@ -14,9 +13,5 @@ bool are_of_one_program(const std::string& a, const std::string& b);
 /// The divided program in the folder of `part` that calls it as its part: it has the header of the same
 /// original program. Otherwise empty.
 std::string divided_program_of(const std::string& part);
-
-/// Whether the header of the corrected program `output` has the hashes of `files`: the program and its data
-/// lists. False if one of them cannot be read.
-bool is_corrected_from(const std::string& output, const std::vector<std::string>& files);
 
 }  // namespace counterflex::cli

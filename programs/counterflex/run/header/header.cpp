@@ -142,6 +142,11 @@ void add_forces(const Options& options, const Run& run, std::vector<std::string>
     lines.push_back("NO CUTTING FORCE, GEOMETRY AND WEIGHT ONLY");
   else if (options.load_scale != 1)
     lines.push_back("WITH FORCES TIMES " + short_number(options.load_scale, 6));
+  if (none || options.load_scale == 0) return;
+  if (options.blend != Options{}.blend)
+    lines.push_back(fmt::format("WITH FORCES BLENDED OVER {} MM", short_number(options.blend / mm, 6)));
+  if (options.air_above_mm)
+    lines.push_back(fmt::format("NO FORCE ABOVE Z{} MM", short_number(*options.air_above_mm, 6)));
 }
 
 void add_reading(const Run& run, std::vector<std::string>& lines) {

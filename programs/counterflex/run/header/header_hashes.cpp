@@ -72,8 +72,14 @@ std::vector<std::string> header_lines(const std::string& text) {
   return lines;
 }
 
-constexpr std::array<std::string_view, 6> statements{"WORK ",  "TEMPERATURE ",     "TOOL ",
-                                                     "FORCE ", "NO CUTTING FORCE", "WITH FORCES TIMES "};
+constexpr std::array<std::string_view, 8> statements{"WORK ",
+                                                     "TEMPERATURE ",
+                                                     "TOOL ",
+                                                     "FORCE ",
+                                                     "NO CUTTING FORCE",
+                                                     "WITH FORCES TIMES ",
+                                                     "WITH FORCES BLENDED ",
+                                                     "NO FORCE ABOVE "};
 
 std::string without_blanks(const std::string& text) {
   std::string rest;
