@@ -2,12 +2,14 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 
 #include "compensation/solve/attribution.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
-#include "compensation/windows/parallel.hpp"
 #include "counterflex/compensation/windows.hpp"
+#include "counterflex/geometry/types.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
@@ -136,7 +138,7 @@ std::vector<NominalResult> solve_nominal(const std::vector<LoadPlace>& places, i
     std::vector<TipPosition> at;
     for (const LoadPlace& place : std::span(places).subspan(begin, count))
       at.push_back({place.model, place.target, commanded_orientation(place.at)});
-    std::ranges::move(solver.nominals(at), all.begin() + static_cast<std::ptrdiff_t>(begin));
+    std::ranges::move(solver.nominals(at), all.begin() + begin);
   });
   return all;
 }
@@ -146,13 +148,11 @@ std::optional<Causes> solve_causes(const LoadPlace& place, const StartTables* st
   const TipPosition position = wanted_at(*place.model, place.at);
   const WantedPose wanted = solver.wanted(position);
   if (wanted.status != Status::converged) return std::nullopt;
-  const Vector3 original = place.target - place.at.correction.head<3>();
-  std::array<ForwardPlace, 1> solved{{{place.model,
-                                       {original, position.R_MT},
-                                       {place.target, commanded_orientation(place.at)},
-                                       place.load.F,
-                                       wanted.X_MT,
-                                       place.at.directions}}};
+  const ForwardRequest emitted = request_at(place);
+  ForwardRequest original = emitted;
+  original.target -= place.at.correction.head<3>();
+  original.R = position.R_MT;
+  const std::array<ForwardPlace, 1> solved{{{original, emitted, wanted.X_MT}}};
   std::array<Waypoint, 1> at{place.at};
   add_causes(solver, solved, at);
   const bool known = at[0].status == Status::converged && at[0].causes;
@@ -184,6 +184,71 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
     }
   });
   return all;
+}
+
+void PathPlaces::add(const Program& window) {
+  for (const Move& move : window.moves) {
+    const ProgramFrame& frame = window.frames[move.frame];
+    if (is_set(frame)) continue;
+    for (const Curve& hole : holes_of_cycle(move)) add(hole, move, frame);
+    if (move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end))
+      add(curve_of(move), move, frame);
+  }
+}
+
+void PathPlaces::add(const Curve& way_of_tip, const Move& move, const ProgramFrame& frame) {
+  const Curve curve = in_offset(frame) * way_of_tip;
+  const double way = length(curve);
+  if (!(way > 0)) return;
+  OfOffset& of = offsets_[frame.work_offset];
+  for (double next = of.spacing_mm * static_cast<double>(of.places.size()); next <= of.way_mm + way;
+       next = of.spacing_mm * static_cast<double>(of.places.size())) {
+    if (of.places.size() < most) {
+      const double u = (next - of.way_mm) / way;
+      PathPlace& place = of.places.emplace_back(PathPlace{point_at(curve, u)});
+      const double turned = move.motion == Motion::feed ? u : 1;  // a hole is at the end of its move
+      if (move.orientation) place.R = in_offset(frame).R * orientation_at(turn_of(*move.orientation), turned);
+      continue;
+    }
+    for (std::size_t k = 0; k < most / 2; ++k) of.places[k] = of.places[2 * k];
+    of.places.resize(most / 2);
+    of.spacing_mm *= 2;
+  }
+  of.way_mm += way;
+}
+
+std::span<const PathPlace> PathPlaces::of(const std::string& offset) const {
+  const auto found = offsets_.find(offset);
+  return found == offsets_.end() ? std::span<const PathPlace>{} : std::span(found->second.places);
+}
+
+UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* starts) {
+  PlaceSolver solver(starts, false);
+  const WantedPose wanted = solver.wanted(at);
+  if (wanted.status != Status::converged) return {wanted.status};
+  const ForwardAnswer actual =
+      solver.forward({.model = at.model, .target = at.p_MT, .within_travel = true, .R = at.R_MT});
+  if (actual.status != Status::converged) return {actual.status};
+  return {Status::converged, actual.X_MT.p - wanted.X_MT.p};
+}
+
+std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
+                                    const StartTables* starts, int threads) {
+  std::vector<UnloadedDeviation> at(places.size());
+  std::atomic<std::size_t> end = places.size();  // a run ends there, too; each further place takes long
+  for_each_index(places.size(), threads, [&](std::size_t i) {
+    if (i >= end) return;
+    const auto& [p_mm, R] = places[i];
+    const std::optional<Matrix3> R_MT = R ? std::optional<Matrix3>(X_MW.R * *R) : std::nullopt;
+    at[i] = unloaded_deviation({&model, X_MW * Vector3(p_mm * mm), R_MT}, starts);
+    if (at[i].status == Status::converged) return;
+    std::size_t last = end;
+    while (i < last && !end.compare_exchange_weak(last, i)) continue;
+  });
+  if (end == 0) return std::nullopt;
+  Vector3 sum = Vector3::Zero();
+  for (std::size_t i = 0; i < end; ++i) sum += at[i].d;
+  return sum / static_cast<double>(end);
 }
 
 }  // namespace counterflex

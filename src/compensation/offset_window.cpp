@@ -8,7 +8,6 @@
 
 #include "compensation/solve/solver.hpp"
 #include "compensation/tuning.hpp"
-#include "compensation/windows/parallel.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/guard.hpp"
@@ -76,27 +75,26 @@ std::optional<FrameShift> shift_of(const OffsetQuestion& q, const WorkFrame& fra
   return moved;
 }
 
-/// What a slice of places needs.
-struct CornerSolving {
-  const OffsetQuestion& question;
-  const std::vector<FrameShift>& frames;
-  const Model* longer = nullptr;  ///< the machine with the tool of another length
-  const StartTables* starts = nullptr;
-};
-
 /// The largest share of the tolerance. Places that need not keep it may get worse by a small share.
 double most_share(const OffsetQuestion& q, const Waypoint& at) {
   if (!at.exempt && !at.insignificant) return 1;
   return std::max(1.0, share_of_tolerance(q.options, q.model.mechanism, at.R_MT, at.after)) + small_share;
 }
 
-bool slice_holds(const CornerSolving& c, std::span<const LoadPlace> places) {
-  const OffsetQuestion& q = c.question;
+/// The machine with the tool of other lengths, and where its solutions start.
+struct OtherLengths {
+  std::map<double, Model> models;  ///< by what is added to the length (m)
+  StartTables starts;              ///< after the models: they must outlive it
+};
+
+/// `frames`: how the corner moves them.
+bool slice_holds(const OffsetQuestion& q, const Corner& corner, const OtherLengths& other,
+                 const std::vector<FrameShift>& frames, std::span<const LoadPlace> places) {
   std::vector<TipPosition> positions;
   std::vector<ForwardRequest> requests;
   for (const LoadPlace& place : places) {
-    const FrameShift& frame = c.frames[place.frame];
-    const Model* model = c.longer != nullptr && place.tool == q.tool ? c.longer : place.model;
+    const FrameShift& frame = frames[place.frame];
+    const Model* model = q.tool == place.tool ? &other.models.at(corner.longer) : place.model;
     TipPosition wanted = wanted_at(*model, place.at);
     wanted.p_MT = frame.wanted * wanted.p_MT;
     if (wanted.R_MT) wanted.R_MT = Matrix3(frame.wanted.R * *wanted.R_MT);
@@ -109,24 +107,18 @@ bool slice_holds(const CornerSolving& c, std::span<const LoadPlace> places) {
   }
   std::vector<WantedPose> wanted(places.size());
   std::vector<ForwardAnswer> answers(places.size());
-  PlaceSolver solver(c.starts, places.front().load.at_platform);
+  PlaceSolver solver(q.tool ? &other.starts : q.starts, places.front().load.at_platform);
   solver.wanted(positions, wanted);
   solver.forwards(requests, answers);
   for (std::size_t i = 0; i < places.size(); ++i) {
     if (wanted[i].status != Status::converged || answers[i].status != Status::converged) return false;
-    BoxedOptional<Matrix3> R;
-    if (positions[i].R_MT) R = *positions[i].R_MT;
     const Vector6 off = deviation(answers[i].X_MT, wanted[i].X_MT);
-    if (share_of_tolerance(q.options, q.model.mechanism, R, off) > most_share(q, places[i].at)) return false;
+    if (share_of_tolerance(q.options, q.model.mechanism, positions[i].R_MT, off) >
+        most_share(q, places[i].at))
+      return false;
   }
   return true;
 }
-
-/// The machine with the tool of other lengths, and where its solutions start.
-struct OtherLengths {
-  std::map<double, Model> models;  ///< by what is added to the length (m)
-  StartTables starts;              ///< after the models: they must outlive it
-};
 
 OtherLengths other_lengths(const OffsetQuestion& q, double half_width) {
   OtherLengths other;
@@ -147,11 +139,10 @@ bool corner_holds(const OffsetQuestion& q, const Corner& corner, const OtherLeng
     if (!shift) return false;
     frames.push_back(*shift);
   }
-  const CornerSolving solving{q, frames, q.tool ? &other.models.at(corner.longer) : nullptr,
-                              q.tool ? &other.starts : q.starts};
   std::atomic<bool> holds = true;
   for_each_slice(q.places.size(), q.options.threads, [&](std::size_t begin, std::size_t count) {
-    if (holds && !slice_holds(solving, std::span(q.places).subspan(begin, count))) holds = false;
+    const auto places = std::span(q.places).subspan(begin, count);
+    if (holds && !slice_holds(q, corner, other, frames, places)) holds = false;
   });
   return holds;
 }

@@ -5,7 +5,7 @@
 #include <string>
 #include <utility>
 
-#include "counterflex/compensation/windows.hpp"
+#include "compensation/support/one_window.hpp"
 #include "counterflex/machine/read_machine.hpp"
 #include "dialects.hpp"
 #include "fuzz.hpp"

@@ -158,6 +158,21 @@ UnloadedDeviation unloaded_deviation(const TipPosition& at, const StartTables* s
 std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::span<const PathPlace> places,
                                     const StartTables* starts = nullptr, int threads = 1);
 
+// Commands between waypoints at which actuators may go farther than at the waypoints.
+
+/// The outermost places of an arc between fraction `u_before` of the move and the waypoint, and the bottom
+/// and the retract plane of a cycle that is called there. They are shifted as the waypoint is. Depths that
+/// are not known, and arcs along which the program turns the tool, give none.
+std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, double u_before);
+
+/// The actuators of the nominal machine there (m, rad); empty if it has none.
+std::optional<Eigen::VectorXd> actuators_at(const TipPosition& command);
+
+/// The fraction of the move at which the waypoint before `w` is; 0 if that is on another move.
+inline double fraction_before(const Waypoint* before, const Waypoint& w) {
+  return before != nullptr && before->move == w.move ? before->fraction : 0;
+}
+
 // Why a target is outside the travel of an actuator, in words.
 
 /// A position that is commanded, and what puts it there. Borrowed: everything outlives it.

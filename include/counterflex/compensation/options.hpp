@@ -9,7 +9,6 @@
 #include <vector>
 
 #include "counterflex/compensation/path_directions.hpp"
-#include "counterflex/compensation/tip_uncertainties.hpp"
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/forces/forces.hpp"
 #include "counterflex/program/boxed_optional.hpp"
@@ -17,6 +16,7 @@
 #include "counterflex/program/rewrite.hpp"
 #include "counterflex/statics/batch_solver.hpp"
 #include "counterflex/statics/nominal.hpp"
+#include "counterflex/statics/tip_uncertainty.hpp"
 #include "counterflex/toolpath/toolpath.hpp"
 
 namespace counterflex {
@@ -50,6 +50,8 @@ struct TipPosition {
   Vector3 p_MT = Vector3::Zero();
   std::optional<Matrix3> R_MT{};
 };
+
+struct TipUncertainties;
 
 /// One program on one machine. Borrowed: everything outlives the job.
 struct Job {

@@ -9,9 +9,6 @@
 
 namespace counterflex {
 
-// Compensates a program that is one window, or verifies one: plans the correction of every move, writes the
-// text, reads it back and solves it forward.
-
 /// Moves that are not corrected each on its own.
 struct OtherMoves {
   std::size_t grouped = 0;  ///< with their contour, by one motion in its plane
@@ -44,13 +41,6 @@ struct Compensation {
   std::size_t corrected_moves = 0;
   OtherMoves other_moves;
 };
-
-/// With `attribution` each waypoint's deviation is split into its causes.
-Compensation compensate(const Job& job, bool attribution);
-
-/// Judges `corrected` by its text alone: matches it with the original and solves it forward. Only failure,
-/// waypoints and corrected moves are set.
-Compensation verify(const Job& job, const Program& corrected, bool attribution);
 
 /// The failure of words that are written too coarsely for the tolerance (ErrorKind::usage), if there are any.
 std::optional<Failure> decimals_failure(const Program& program, const Toolpath& path,
@@ -95,6 +85,16 @@ struct RunInput {
   const std::vector<bool>* as_programmed = nullptr;  ///< as for a job
 };
 
+// Orientations of the nominal tool along a program, with which the forces of a run are computed.
+
+/// Orientations of the tool in M on the path of a window, as `PathForces` takes them: one for all if every
+/// move has home's; else as many for each segment, at equal fractions. A place that the machine does not
+/// reach has home's.
+std::vector<Matrix3> tool_orientations(const RunInput& input, const Program& window, const Toolpath& path);
+
+/// The same at the hole of each move that `drills`, in order.
+std::vector<Matrix3> tool_orientations_at_holes(const RunInput& input, const Program& window);
+
 /// A window with its path and forces. It does not change while others are read.
 struct JobWindow {
   Program program;
@@ -119,6 +119,7 @@ class JobWindows {
   /// `window` is used again. Throws `InputError` as reader and forces do.
   bool next(JobWindow& window);
   Job job(const JobWindow& window) const;
+  const RunInput& input() const { return input_; }
 
  private:
   void build(JobWindow& window) const;

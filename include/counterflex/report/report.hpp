@@ -7,7 +7,7 @@
 #include <variant>
 #include <vector>
 
-#include "counterflex/compensation/sampled_uncertainty.hpp"
+#include "counterflex/compensation/uncertainty.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/machine/machine.hpp"
 #include "counterflex/program/boxed_optional.hpp"

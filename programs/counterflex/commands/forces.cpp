@@ -7,7 +7,7 @@
 #include "commands/forces_table.hpp"
 #include "commands/forces_walk.hpp"
 #include "commands/materials.hpp"
-#include "counterflex/compensation/tool_orientations.hpp"
+#include "counterflex/compensation/windows.hpp"
 #include "process/standard_output.hpp"
 #include "run/command_outputs.hpp"
 #include "run/reading.hpp"

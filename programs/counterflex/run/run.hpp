@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include "counterflex/compensation/loads_along.hpp"
+#include "counterflex/compensation/uncertainty.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/report/run_tally.hpp"
 #include "process/console.hpp"

@@ -96,36 +96,6 @@ double radius_of_whole(const CornerSide& begin, const CornerSide& end, double le
   return std::max(radius_within(begin, low), radius_within(end, length_mm - high));
 }
 
-}  // namespace
-
-bool is_inner_corner(const Curve& before, const Curve& after, CutterSide side) {
-  const double turn = direction_at(before, 1).cross(direction_at(after, 0)).z();
-  return (side == CutterSide::left ? turn : -turn) > tangent;
-}
-
-ContourRadius largest_radius(const std::vector<ContourWay>& ways, bool by_pieces) {
-  ContourRadius least{largest_tool_radius_mm, 0};
-  const auto has_corner = [&](std::size_t i) {  // behind way i
-    return i + 1 < ways.size() && is_inner_corner(ways[i].curve, ways[i + 1].curve, ways[i].side);
-  };
-  for (std::size_t i = 0; i < ways.size(); ++i) {
-    const ContourWay& way = ways[i];
-    const double length_mm = length(way.curve);
-    CornerSide begin, end;
-    if (i > 0 && has_corner(i - 1)) begin = {&way, &ways[i - 1], false};
-    if (has_corner(i)) end = {&way, &ways[i + 1], true};
-    double radius = is_inner_arc(way) ? radius_of(way) : largest_tool_radius_mm;
-    if (by_pieces && way.is_divided)
-      radius = std::min({radius, radius_within(begin, way.first_mm), radius_within(end, way.last_mm)});
-    else if (std::min(radius_within(begin, length_mm / 2), radius_within(end, length_mm / 2)) < least.mm)
-      radius = std::min(radius, radius_of_whole(begin, end, length_mm));
-    if (radius < least.mm) least = {radius, i};
-  }
-  return least;
-}
-
-namespace {
-
 constexpr double same_place_mm = 1e-6;
 
 Curve in_plane(Curve curve) {
@@ -257,6 +227,32 @@ class ContourReader {
 };
 
 }  // namespace
+
+bool is_inner_corner(const Curve& before, const Curve& after, CutterSide side) {
+  const double turn = direction_at(before, 1).cross(direction_at(after, 0)).z();
+  return (side == CutterSide::left ? turn : -turn) > tangent;
+}
+
+ContourRadius largest_radius(const std::vector<ContourWay>& ways, bool by_pieces) {
+  ContourRadius least{largest_tool_radius_mm, 0};
+  const auto has_corner = [&](std::size_t i) {  // behind way i
+    return i + 1 < ways.size() && is_inner_corner(ways[i].curve, ways[i + 1].curve, ways[i].side);
+  };
+  for (std::size_t i = 0; i < ways.size(); ++i) {
+    const ContourWay& way = ways[i];
+    const double length_mm = length(way.curve);
+    CornerSide begin, end;
+    if (i > 0 && has_corner(i - 1)) begin = {&way, &ways[i - 1], false};
+    if (has_corner(i)) end = {&way, &ways[i + 1], true};
+    double radius = is_inner_arc(way) ? radius_of(way) : largest_tool_radius_mm;
+    if (by_pieces && way.is_divided)
+      radius = std::min({radius, radius_within(begin, way.first_mm), radius_within(end, way.last_mm)});
+    else if (std::min(radius_within(begin, length_mm / 2), radius_within(end, length_mm / 2)) < least.mm)
+      radius = std::min(radius, radius_of_whole(begin, end, length_mm));
+    if (radius < least.mm) least = {radius, i};
+  }
+  return least;
+}
 
 std::vector<NarrowedContour> narrowed_contours(const Job& job, const std::vector<MoveEdit>& edits) {
   return ContourReader(job, edits).run();

@@ -1,5 +1,3 @@
-#include "compensation/emit/emit.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
@@ -12,8 +10,8 @@
 
 namespace counterflex {
 
-Emission Emitter::run() {
-  out_.edits.reserve(job_.program.moves.size());
+std::vector<MoveEdit> Emitter::run() {
+  edits_.reserve(job_.program.moves.size());
   for (std::size_t m = 0; m < job_.program.moves.size() && !out_.failure; ++m) {
     const bool has_segment =
         next_segment_ < job_.path.segments.size() && job_.path.segments[next_segment_].move == m;
@@ -24,9 +22,10 @@ Emission Emitter::run() {
     state_.doubtful = leaves_doubt(job_.program.moves[m], state_.doubtful);
   }
   leave_pending_alone();
-  out_.other_moves.left = job_.program.moves.size() - out_.edits.size();
-  out_.narrowed = narrowed_contours(job_, out_.edits);
-  return std::move(out_);
+  out_.narrowed = narrowed_contours(job_, edits_);
+  out_.other_moves.left = job_.program.moves.size() - edits_.size();
+  if (out_.failure) out_.corrected_moves = 0, out_.other_moves = {};  // nothing is written
+  return std::move(edits_);
 }
 
 void Emitter::emit_move(std::size_t m, Index s) {
@@ -55,16 +54,15 @@ void Emitter::emit_segment(std::size_t s) {
   const PlannedSegment& planned = plan_.segments[s];
   MoveEdit edit{.move = segment.move};
   UnsplitMiss miss{.position = planned.unsplit_miss};
-  double jump = 0;
   start_turn_ = state_.turn;
   end_turn_ = planned.knots.back().turn;
-  const bool jumps = put_jump(segment, planned, edit, jump);
+  const double jump = put_jump(segment, planned, edit);
   if (segment.wanted.arc)
     emit_arc(segment, planned, edit, miss);
   else
     emit_line(segment, planned, edit, miss);
   // A block that must stay one begins where the last one ended.
-  if (jumps && segment.cutting && !job_.program.moves[segment.move].may_split) miss.position += jump;
+  if (segment.cutting && !job_.program.moves[segment.move].may_split) miss.position += jump;
   finish_segment(segment, planned, miss, std::move(edit));
 }
 
@@ -75,14 +73,27 @@ Vector3 without_height(const WorkFrame& frame, int axis, const Vector3& step) {
   return step - step.dot(normal) * normal;
 }
 
+double slope(const Move& move, double rise_mm) {
+  return rise_mm / (move.end_mm - move.start_mm).norm();
+}
+
+// By how much a control shortens a line beside a chamfer for the largest tool that passes the chamfer, as a
+// share of what the chamfer takes: 0 at outer corners of a contour, and at roundings.
+double share_for_tool(const Move& before, CutterSide side) {
+  const Move& after = *(&before + 1);
+  const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
+  if (before.corners->end_is_round || !is_inner_corner(curve_of(before), curve_of(after), side)) return 0;
+  return std::cos(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
+}
+
 }  // namespace
 
 Via Emitter::via_of(const Move& move, const TargetCommand& command, double u) const {
   return {in_words_mm(job_, move, command.target), {}, turned_words(job_, move, u, command.turn)};
 }
 
-// Whether the correction steps at the start; a feed move performs the step where one may be inserted.
-bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, double& jump) {
+// The step of the correction at the start (m); a feed move performs it where one may be inserted.
+double Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit) {
   const Move& move = job_.program.moves[segment.move];
   const Vector3 start = planned.start.target - segment.wanted.start;
   Vector3 step = start - state_.correction;
@@ -93,11 +104,12 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Mo
   else if (!segment.cutting && last != nullptr && stays_flat(*last))
     step = without_height(frame(move), last->arc->normal, step);
   const double turned = lever(job_.options) * (planned.start.turn - state_.turn).norm();
-  jump = planned.starts_anywhere || !state_.correction_known ? 0 : std::hypot(step.norm(), turned);
+  const double jump =
+      planned.starts_anywhere || !state_.correction_known ? 0 : std::hypot(step.norm(), turned);
   const bool jumps = jump > small_share * job_.options.tolerance;
   if (jumps || segment.wanted.arc) piece_held_ = before(move);
-  if (!jumps) return false;
-  if (!move.may_jump && !move.may_split) return true;
+  if (!jumps) return 0;
+  if (!move.may_jump && !move.may_split) return jump;
   const Via begin = via_of(move, planned.start, 0);
   start_turn_ = planned.start.turn;
   if (move.may_jump)
@@ -105,7 +117,7 @@ bool Emitter::put_jump(const Segment& segment, const PlannedSegment& planned, Mo
   else
     edit.inserted.push_back(begin);
   go_through(move, begin, piece_held_);
-  return true;
+  return jump;
 }
 
 void Emitter::emit_line(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit,
@@ -138,27 +150,6 @@ std::optional<Emitter::EndHeights> Emitter::end_heights(std::size_t s) const {
   const Vector3& end = planned.knots.back().target;
   return EndHeights{in_words_mm(job_, move, planned.start.target).z(), in_words_mm(job_, move, end).z()};
 }
-
-namespace {
-
-double slope(const Move& move, double rise_mm) {
-  return rise_mm / (move.end_mm - move.start_mm).norm();
-}
-
-}  // namespace
-
-namespace {
-
-// By how much a control shortens a line beside a chamfer for the largest tool that passes the chamfer, as a
-// share of what the chamfer takes: 0 at outer corners of a contour, and at roundings.
-double share_for_tool(const Move& before, CutterSide side) {
-  const Move& after = *(&before + 1);
-  const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
-  if (before.corners->end_is_round || !is_inner_corner(curve_of(before), curve_of(after), side)) return 0;
-  return std::cos(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
-}
-
-}  // namespace
 
 // The flat parts of a line beside its corners. At inner corners of a contour they are longer, as far as line
 // and tolerance allow it: what the control shortens must not reach beyond them.
@@ -263,8 +254,7 @@ Vector3 Emitter::correction_that_can_be_written(const Move& move, const Vector3&
   const double rounding = rounding_allowance(move, job_.options.write);
   bool all_written = true;
   for (Eigen::Index axis = 0; axis < 3; ++axis) {
-    const auto a = static_cast<std::size_t>(axis);
-    if (move.words[a] || may_insert_word(move, a) || is_pending(a) ||
+    if (move.words[axis] || may_insert_word(move, axis) || is_pending(axis) ||
         std::abs(c_W[axis] - held_W[axis]) < rounding)
       continue;
     c_W[axis] = held_W[axis];
@@ -278,17 +268,12 @@ Vector3 Emitter::correction_where_held(const Move& move, const Vector3& correcti
   Vector3 shift = shift_mm(move, correction);
   bool differs = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    const double held = *piece_held_[axis] - move.end_mm[k];
-    if (rounds_to_nothing(move, axis, shift[k] - held)) continue;
-    shift[k] = held;
+    const double held = *piece_held_[axis] - move.end_mm[axis];
+    if (rounds_to_nothing(move, axis, shift[axis] - held)) continue;
+    shift[axis] = held;
     differs = true;
   }
   return differs ? correction_of(move, shift) : correction;
-}
-
-Emission emit(const Job& job, const Plan& plan, EmitterState& state) {
-  return Emitter(job, plan, state).run();
 }
 
 }  // namespace counterflex

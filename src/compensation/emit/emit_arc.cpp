@@ -14,20 +14,18 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Mo
   if (!move.may_split) return put_one_arc(arc_task(segment, planned, planned.arc.front()), edit, miss);
   for (const CorrectionCurve& stretch : planned.arc) {
     const ArcTask task = arc_task(segment, planned, stretch);
-    const double begin = stretch.begin(), end = stretch.end();
-    if (begin > 0) {  // a step of the force
-      Via step{task.commanded(begin)};
-      if (move.orientation) step.orientation = task.turned(begin);
+    if (const double begin = stretch.begin(); begin > 0) {  // a step of the force
+      const Via step = via_of(move, command_at(job_, segment, begin, stretch.at(begin)), begin);
       go_through(move, step, piece_held_);
       edit.inserted.push_back(step);
     }
-    ArcPieces pieces = divide_arc(task, begin, end, piece_held_);
+    ArcPieces pieces = divide_arc(task, piece_held_);
     if (pieces.lack_digits) {
       out_.failure = few_decimals_failure(move, job_.options);
       return;
     }
     piece_held_ = pieces.held;
-    if (end == 1) {
+    if (task.end == 1) {
       edit.centre_mm = pieces.vias.back().centre_mm;
       pieces.vias.pop_back();
     }
@@ -40,13 +38,12 @@ void Emitter::emit_arc(const Segment& segment, const PlannedSegment& planned, Mo
 ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
                           const CorrectionCurve& stretch) const {
   const Move& move = job_.program.moves[segment.move];
-  const Pose X_WM = inverse(frame(move).X_MW);
   return {.move = move,
           .options = job_.options.write,
           .source = curve_of(move),
           .commanded =
-              [&segment, &stretch, X_WM](double u) {
-                return Vector3(X_WM * (point_at(segment.wanted, u) + shift_of(stretch.at(u))) / mm);
+              [&job = job_, &move, &segment, &stretch](double u) {
+                return in_words_mm(job, move, command_at(job, segment, u, stretch.at(u)).target);
               },
           .turned =
               [&job = job_, &move, &segment, &stretch, start = start_turn_, end = end_turn_](double u) {
@@ -94,7 +91,7 @@ std::optional<OrientationNumbers> allowed_end(const ArcTask& task, const ArcPiec
 
 // Under exact stop: the best single arc there is, and what it misses.
 void Emitter::put_one_arc(const ArcTask& task, MoveEdit& edit, UnsplitMiss& miss) {
-  const ArcPiece whole{0, 1, true, piece_held_};
+  const ArcPiece whole{0, 1, piece_held_};
   FittedArc fit = fit_arc(task, whole);
   if (task.move.polar) {
     const FittedArc polar = fit_polar_arc(task, piece_held_);
@@ -114,7 +111,7 @@ void Emitter::put_one_arc(const ArcTask& task, MoveEdit& edit, UnsplitMiss& miss
 void Emitter::keep_turn_limits(const ArcTask& task, const FittedArc& fit, UnsplitMiss& miss) {
   const Move& move = task.move;
   const OrientationForm form = move.orientation->form;
-  const auto end = allowed_end(task, {0, 1, true, piece_held_}, fit.read);
+  const auto end = allowed_end(task, {0, 1, piece_held_}, fit.read);
   const Matrix3 R_wanted = rotation_of(form, task.turned(1)),
                 R_end = rotation_of(form, end.value_or(task.turned(1)));
   const double off = rotation_between(R_end, R_wanted).norm();

@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "compensation/emit/emitter.hpp"
+#include "compensation/tuning.hpp"
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -15,33 +16,6 @@ namespace {
 bool is_in_plane(const Move& move) {
   return move.words[0] || move.words[1] || move.arc;
 }
-
-}  // namespace
-
-// Whether the arcs of the contour lie in X Y: Z does not touch the radius of the cutter there,
-// and is corrected block by block.
-bool Emitter::is_in_xy(std::size_t m) const {
-  const auto& moves = job_.program.moves;
-  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m)
-    if (moves[m].arc && moves[m].arc->normal != 2) return false;
-  return true;
-}
-
-// A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane
-// must be known and written, in words of X and Y.
-bool Emitter::group_may_turn(std::size_t m) const {
-  const auto& moves = job_.program.moves;
-  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m) {
-    const Move& move = moves[m];
-    if (!is_in_plane(move)) continue;
-    for (const std::size_t axis : {0, 1})
-      if (!move.known_end[axis] || !(move.words[axis] || may_insert_word(move, axis))) return false;
-    if (move.polar || move.cycle) return false;
-  }
-  return group_in_xy_;
-}
-
-namespace {
 
 // Where a contour should move to: program coordinates (mm).
 struct GroupSample {
@@ -81,7 +55,56 @@ GroupMotion best_turn(const std::vector<GroupSample>& samples) {
   return {.about = p, .turn = square > 0 ? std::atan2(along, square) : 0};
 }
 
+// The largest miss of straight lines between every `stride`th node.
+double miss_between(const std::vector<double>& heights, std::size_t stride) {
+  double miss = 0;
+  for (std::size_t k = 0; k < heights.size(); ++k) {
+    const std::size_t begin = std::min(k / stride * stride, heights.size() - 1 - stride);
+    const double share = static_cast<double>(k - begin) / static_cast<double>(stride);
+    miss =
+        std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
+  }
+  return miss;
+}
+
+double middle_of(const std::vector<double>& heights, std::size_t first, std::size_t stride) {
+  const auto [low, high] = std::minmax_element(heights.begin() + first, heights.begin() + first + stride + 1);
+  return (*low + *high) / 2;
+}
+
+// The largest distance of the heights between every `stride`th node from their middle.
+double half_range(const std::vector<double>& heights, std::size_t stride) {
+  double range = 0;
+  for (std::size_t k = 0; k + stride < heights.size(); k += stride)
+    for (std::size_t i = k; i <= k + stride; ++i)
+      range = std::max(range, std::abs(heights[i] - middle_of(heights, k, stride)));
+  return range;
+}
+
 }  // namespace
+
+// Whether the arcs of the contour lie in X Y: Z does not touch the radius of the cutter there,
+// and is corrected block by block.
+bool Emitter::is_in_xy(std::size_t m) const {
+  const auto& moves = job_.program.moves;
+  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m)
+    if (moves[m].arc && moves[m].arc->normal != 2) return false;
+  return true;
+}
+
+// A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane
+// must be known and written, in words of X and Y.
+bool Emitter::group_may_turn(std::size_t m) const {
+  const auto& moves = job_.program.moves;
+  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m) {
+    const Move& move = moves[m];
+    if (!is_in_plane(move)) continue;
+    for (const std::size_t axis : {0, 1})
+      if (!move.known_end[axis] || !(move.words[axis] || may_insert_word(move, axis))) return false;
+    if (move.polar || move.cycle) return false;
+  }
+  return group_in_xy_;
+}
 
 Vector3 GroupMotion::shift_at(const Vector3& p_mm) const {
   return shift + turned(turn, p_mm - about);
@@ -142,8 +165,7 @@ void Emitter::check_step(const Move& move, const Vector3& before_mm) {
   const Vector3 after_mm = shift_mm(move, state_.correction);
   const bool in_plane = is_in_plane(move);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    const double step = after_mm[k] - before_mm[k];
+    const double step = after_mm[axis] - before_mm[axis];
     const bool flat = move.arc && move.arc->flat && static_cast<int>(axis) == move.arc->normal;
     const bool writes = move.words[axis] || (in_plane && may_insert_word(move, axis) && !flat);
     if (!move.known_end[axis] || writes || rounds_to_nothing(move, axis, step)) continue;
@@ -154,55 +176,19 @@ void Emitter::check_step(const Move& move, const Vector3& before_mm) {
   }
 }
 
-// The shift of Z at the end of a move of the group, of one that stays or comes from an unknown position where
-// the next begins; nothing where Z goes with the group.
-std::optional<double> Emitter::height_shift_mm(const Move& move, Index s) const {
+// The shift at the end of a move of the group. In Z that of one that stays or comes from an unknown position
+// is the one where the next begins; `height` where Z goes with the group.
+Vector3 Emitter::group_shift_mm(const Move& move, Index s, double height) const {
+  Vector3 shift = group_motion_->shift_at(move.end_mm);
+  shift.z() = height;
   const std::size_t next = s.value_or(next_segment_);
   const bool known = next < plan_.segments.size() && !plan_.segments[next].group.empty() &&
                      job_.program.moves[job_.path.segments[next].move].group == move.group;
-  if (!group_in_xy_ || !known) return std::nullopt;
+  if (!group_in_xy_ || !known) return shift;
   const std::vector<CurveNode>& nodes = plan_.segments[next].group;
-  return shift_mm(move, shift_of(s ? nodes.back().c : nodes.front().c)).z();
-}
-
-// The shift at the end of a move of the group; `height` where that of Z is not known there.
-Vector3 Emitter::group_shift_mm(const Move& move, Index s, double height) const {
-  Vector3 shift = group_motion_->shift_at(move.end_mm);
-  shift.z() = height_shift_mm(move, s).value_or(height);
+  shift.z() = shift_mm(move, shift_of(s ? nodes.back().c : nodes.front().c)).z();
   return shift;
 }
-
-namespace {
-
-// The largest miss of straight lines between every `stride`th node.
-double miss_between(const std::vector<double>& heights, std::size_t stride) {
-  double miss = 0;
-  for (std::size_t k = 0; k < heights.size(); ++k) {
-    const std::size_t begin = std::min(k / stride * stride, heights.size() - 1 - stride);
-    const double share = static_cast<double>(k - begin) / static_cast<double>(stride);
-    miss =
-        std::max(miss, std::abs(heights[k] - (1 - share) * heights[begin] - share * heights[begin + stride]));
-  }
-  return miss;
-}
-
-double middle_of(const std::vector<double>& heights, std::size_t first, std::size_t stride) {
-  const auto [low, high] =
-      std::minmax_element(heights.begin() + static_cast<std::ptrdiff_t>(first),
-                          heights.begin() + static_cast<std::ptrdiff_t>(first + stride) + 1);
-  return (*low + *high) / 2;
-}
-
-// The largest distance of the heights between every `stride`th node from their middle.
-double half_range(const std::vector<double>& heights, std::size_t stride) {
-  double range = 0;
-  for (std::size_t k = 0; k + stride < heights.size(); k += stride)
-    for (std::size_t i = k; i <= k + stride; ++i)
-      range = std::max(range, std::abs(heights[i] - middle_of(heights, k, stride)));
-  return range;
-}
-
-}  // namespace
 
 // The height of a contour's arc need not change in proportion to its angle, and a flat arc has one height: it
 // is divided into 2, 4 or 8 arcs then, which are one in the plane. Lines along Z lead to those that are flat.

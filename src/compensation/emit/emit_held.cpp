@@ -17,7 +17,7 @@ Vector3 Emitter::held_shift_mm(const Move& move) const {
   if (!state_.correction_known) return shift;
   const Vector3 all = shift_mm(move, state_.correction);
   for (Eigen::Index axis = 0; axis < 3; ++axis)
-    if (state_.holds[static_cast<std::size_t>(axis)]) shift[axis] = all[axis];
+    if (state_.holds[axis]) shift[axis] = all[axis];
   return shift;
 }
 
@@ -52,7 +52,7 @@ void Emitter::emit_fixed(std::size_t m) {
   const Vector3 shift = held_shift_mm(move);
   bool edits = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const double along = shift[static_cast<Eigen::Index>(axis)];
+    const double along = shift[axis];
     if (move.fixed[axis] && !rounds_to_nothing(move, axis, along))
       return refuse(
           move,
@@ -79,9 +79,8 @@ MoveEdit Emitter::shifted(std::size_t m, const Vector3& shift) const {
 void Emitter::keep_standing_axes(const Move& move, MoveEdit& edit) {
   come_to(move);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    if (move.known_start[axis] && move.end_mm[k] == move.start_mm[k] && state_.held[axis] && !move.arc)
-      edit.end_mm[k] = *state_.held[axis];
+    if (move.known_start[axis] && move.end_mm[axis] == move.start_mm[axis] && state_.held[axis] && !move.arc)
+      edit.end_mm[axis] = *state_.held[axis];
   }
 }
 
@@ -167,7 +166,7 @@ TextPosition Emitter::before(const Move& move) {
   come_to(move);
   TextPosition held = state_.held;
   for (std::size_t axis = 0; axis < 3; ++axis)
-    if (!held[axis]) held[axis] = move.start_mm[static_cast<Eigen::Index>(axis)];
+    if (!held[axis]) held[axis] = move.start_mm[axis];
   return held;
 }
 
@@ -176,12 +175,12 @@ void Emitter::go_through(const Move& move, const Via& via, TextPosition& held) c
 }
 
 void Emitter::put(MoveEdit edit, Extent extent) {
-  take_in(edit);
-  count(job_.program.moves[edit.move], extent);
-  out_.edits.push_back(std::move(edit));
-}
-
-void Emitter::count(const Move& move, Extent extent) {
+  const Move& move = job_.program.moves[edit.move];
+  come_to(move);
+  if (edit.jump || !edit.inserted.empty()) state_.held = before(move);
+  if (edit.jump) go_through(move, *edit.jump, state_.held);
+  for (const Via& via : edit.inserted) go_through(move, via, state_.held);
+  state_.held = text_position_after(move, state_.held, edit.end_mm, job_.options.write);
   OtherMoves& others = out_.other_moves;
   if (extent == Extent::whole)
     ++out_.corrected_moves;
@@ -189,25 +188,16 @@ void Emitter::count(const Move& move, Extent extent) {
     ++others.grouped;
   else
     ++(extent == Extent::in_part ? others.in_part : others.held);
-}
-
-void Emitter::take_in(const MoveEdit& edit) {
-  const Move& move = job_.program.moves[edit.move];
-  come_to(move);
-  if (edit.jump || !edit.inserted.empty()) state_.held = before(move);
-  if (edit.jump) go_through(move, *edit.jump, state_.held);
-  for (const Via& via : edit.inserted) go_through(move, via, state_.held);
-  state_.held = text_position_after(move, state_.held, edit.end_mm, job_.options.write);
+  edits_.push_back(std::move(edit));
 }
 
 void Emitter::pass(const Move& move) {
   come_to(move);
   Vector3 end = move.end_mm;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
     if (state_.held[axis] && is_relative(move, axis) && move.words[axis])
-      end[k] = *state_.held[axis] + move.end_mm[k] - move.start_mm[k];
-    if (state_.held[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[k] = *state_.held[axis];
+      end[axis] = *state_.held[axis] + move.end_mm[axis] - move.start_mm[axis];
+    if (state_.held[axis] && !move.words[axis] && !(move.cycle && axis == 2)) end[axis] = *state_.held[axis];
   }
   state_.held = text_position_after(move, state_.held, end, job_.options.write);
 }

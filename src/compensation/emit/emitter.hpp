@@ -1,13 +1,23 @@
 #pragma once
-/// Goes through the moves of a program in order, keeps the correction that holds where the tool is, and what
-/// the emitted text holds.
-#include "compensation/emit/emit.hpp"
+/// From a plan to the edits of a program's text.
 #include "compensation/plan/arc_fit.hpp"
+#include "compensation/plan/plan.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
-#include "compensation/tuning.hpp"
+#include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
+
+/// What holds where the tool is, from move to move and from window to window.
+struct EmitterState {
+  Vector3 correction = Vector3::Zero();  ///< target minus wanted position, M (m)
+  Vector3 turn = Vector3::Zero();        ///< commanded against wanted orientation: rotation vector (rad, M)
+  bool correction_known = false;
+  std::array<bool, 3> holds{};  ///< program axes that carry it
+  bool doubtful = false;  ///< a block made a position unknown that carries the correction, and it still is
+  int group = 0;          ///< contour group that is being emitted
+  TextPosition held{};    ///< of the emitted text
+};
 
 /// The motion that a contour group makes in the plane: a turn about Z, and a shift (program coordinates, mm).
 struct GroupMotion {
@@ -16,12 +26,20 @@ struct GroupMotion {
   Vector3 shift_at(const Vector3& p_mm) const;
 };
 
+/// Goes through the moves of a window in order, keeps the correction that holds where the tool is, and what
+/// the emitted text holds.
 class Emitter {
  public:
-  Emitter(const Job& job, const Plan& plan, EmitterState& state)
-      : job_(job), plan_(plan), state_(state), solver_(job) {}
+  /// `result` gets the failure, the counts of moves, what is left alone, and narrowed contours.
+  Emitter(const Job& job, const Plan& plan, EmitterState& state, Compensation& result)
+      : job_(job), plan_(plan), out_(result), state_(state), solver_(job) {}
 
-  Emission run();
+  /// Edits for all moves: segments as planned; moves that go nowhere keep the correction that holds there;
+  /// moves made before all axes are known take that of the first position that is (look-ahead of 64 blocks).
+  /// Arcs are fitted to what the text holds before them; holes get the correction at their bottom, contour
+  /// groups one rigid motion; a held move keeps the correction at its start. Where one cannot be
+  /// held the emission fails (ErrorKind::program_text).
+  std::vector<MoveEdit> run();
 
  private:
   using Index = std::optional<std::size_t>;  ///< of a segment, where a move has one
@@ -42,7 +60,7 @@ class Emitter {
                       MoveEdit edit);
   /// A point of the text for a command at a fraction of the move.
   Via via_of(const Move& move, const TargetCommand& command, double u) const;
-  bool put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit, double& jump);
+  double put_jump(const Segment& segment, const PlannedSegment& planned, MoveEdit& edit);
   Vector3 correction_that_can_be_written(const Move& move, const Vector3& correction) const;
   Vector3 correction_where_held(const Move& move, const Vector3& correction) const;
 
@@ -79,7 +97,6 @@ class Emitter {
   Vector3 group_shift_mm(const Move& move, Index s, double height) const;
   void divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const;
   Vector3 shifted_centre(const Move& move, const Vector3& shift) const;
-  std::optional<double> height_shift_mm(const Move& move, Index s) const;
   void check_step(const Move& move, const Vector3& before_mm);
 
   // emit_position.cpp
@@ -112,9 +129,7 @@ class Emitter {
   TextPosition before(const Move& move);
   void go_through(const Move& move, const Via& via, TextPosition& held) const;
   void put(MoveEdit edit, Extent extent);  ///< the next edit
-  void count(const Move& move, Extent extent);
-  void take_in(const MoveEdit& edit);  ///< what the text holds behind it
-  void pass(const Move& move);         ///< a move without an edit
+  void pass(const Move& move);             ///< a move without an edit
 
   void list(const Move& move, std::string why) { out_.left_alone.push_back({move.line, std::move(why)}); }
   void list_held_words(const Move& move, const Vector3& miss);
@@ -124,7 +139,8 @@ class Emitter {
 
   const Job& job_;
   const Plan& plan_;
-  Emission out_;
+  Compensation& out_;
+  std::vector<MoveEdit> edits_;
   std::size_t next_segment_ = 0;
   std::vector<std::size_t> pending_;  // moves before all axes are known
   EmitterState& state_;

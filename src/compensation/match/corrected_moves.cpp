@@ -94,9 +94,7 @@ std::string without_targets(const Program& window, const std::vector<Span>& decl
   const std::string rest = without(declared, window.text, line.text, line.begin, next);
   if (rest.size() == line.text.size()) return {};
   if (is_klartext(window)) return line_kept_words(window, line.text, rest);
-  const auto at = [&](std::size_t i) {
-    return declared.begin() + static_cast<std::ptrdiff_t>(std::min(i, declared.size()));
-  };
+  const auto at = [&](std::size_t i) { return declared.begin() + std::min(i, declared.size()); };
   return declared_kept_words(window, {line.begin, line.begin + line.text.size()}, {at(first), at(next)});
 }
 
@@ -253,7 +251,7 @@ bool CorrectedMoves::read_on() {
     read_ = nullptr;
     return false;
   }
-  moves_.erase(moves_.begin(), moves_.begin() + static_cast<std::ptrdiff_t>(first_));
+  moves_.erase(moves_.begin(), moves_.begin() + first_);
   first_ = 0;
   add(windows_.emplace_back(std::move(window)));
   drop(0);

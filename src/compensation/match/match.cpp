@@ -1,10 +1,10 @@
+
 #include "compensation/match/match.hpp"
 
 #include <algorithm>
 #include <cmath>
 #include <utility>
 
-#include "compensation/match/match_moves.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/offset_window.hpp"
 #include "counterflex/compensation/windows.hpp"
@@ -68,9 +68,8 @@ bool ends_elsewhere(const MatchedMoves& matched) {
   const Move &original = matched.original, &found = matched.last();
   if (original.handling != Handling::own || any_axis(original.fixed)) return false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
     if (original.known_end[axis] && found.known_end[axis] &&
-        std::abs(found.end_mm[k] - original.end_mm[k]) > indistinct_mm)
+        std::abs(found.end_mm[axis] - original.end_mm[axis]) > indistinct_mm)
       return true;
   }
   return false;
@@ -113,10 +112,6 @@ std::optional<Failure> lines_failure(OtherLines& wanted, OtherLines& found) {
   return std::nullopt;
 }
 
-bool has_lines(const std::vector<OtherLine>& found, const std::vector<std::string>& wanted) {
-  return std::ranges::equal(found, wanted, {}, &OtherLine::text);
-}
-
 // The lines of a guard are those that are written for the machine, the work offset and the tool of the run,
 // with one of the windows.
 std::optional<Failure> guard_failure(const Job& job, const std::vector<OtherLine>& found) {
@@ -131,7 +126,8 @@ std::optional<Failure> guard_failure(const Job& job, const std::vector<OtherLine
   for (const double window_mm : window_steps_mm) {
     Guard written = *guard;
     written.window_mm = window_mm;
-    if (has_lines(found, lines_of_guard(job.program.dialect, written))) return std::nullopt;
+    if (std::ranges::equal(found, lines_of_guard(job.program.dialect, written), {}, &OtherLine::text))
+      return std::nullopt;
   }
   return Failure{
       ErrorKind::not_compensated, 0,

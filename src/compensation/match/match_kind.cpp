@@ -5,7 +5,7 @@
 #include <cmath>
 #include <numbers>
 
-#include "compensation/match/match_moves.hpp"
+#include "compensation/match/match.hpp"
 #include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
@@ -77,15 +77,7 @@ double bend_of(const PlannedSegment& planned) {
 class KindComparison {
  public:
   KindComparison(const Job& job, const Plan& plan, const MatchedMoves& matched)
-      : plan_(plan),
-        program_(job.program),
-        matched_(matched),
-        original_(matched.original),
-        rounding_mm_(rounding_allowance(original_, job.options.write) / mm),
-        tolerance_mm_(job.options.tolerance / mm),
-        tilt_tolerance_(job.options.tilt_tolerance),
-        most_shift_mm_((job.options.max_correction + job.path.frames[original_.frame].datum_shift.norm()) /
-                       mm) {}
+      : job_(job), plan_(plan), matched_(matched) {}
 
   std::optional<Failure> run() {
     for (std::size_t i = 0; i < matched_.found.size() && !failure_; ++i) compare(i);
@@ -267,7 +259,7 @@ class KindComparison {
     if (original_.orientation && found.orientation) {
       const Turn turn = turn_of(*found.orientation), wanted = turn_of(*original_.orientation);
       const double angle = rotation_between(turn.end, turn.start).norm();
-      if (angle > tilt_tolerance_ + rotation_between(wanted.end, wanted.start).norm())
+      if (angle > job_.options.tilt_tolerance + rotation_between(wanted.end, wanted.start).norm())
         return fail(found,
                     fmt::format("this move turns the tool by {:.4f} degrees, that of the original does not",
                                 angle / deg));
@@ -290,10 +282,10 @@ class KindComparison {
   void compare_shifts(const Move& found) {
     const Vector3& start = matched_.first().start_mm;
     for (std::size_t axis = 0; axis < 3 && !failure_; ++axis) {
-      const auto k = static_cast<Eigen::Index>(axis);
       if (!original_.words[axis] || !found.words[axis] || original_.fixed[axis]) continue;
-      double shift = found.end_mm[k] - original_.end_mm[k];
-      if (is_relative(original_, axis) && is_relative(found, axis)) shift -= start[k] - original_.start_mm[k];
+      double shift = found.end_mm[axis] - original_.end_mm[axis];
+      if (is_relative(original_, axis) && is_relative(found, axis))
+        shift -= start[axis] - original_.start_mm[axis];
       compare_shift(found, std::string(1, "XYZ"[axis]), shift);
     }
   }
@@ -308,7 +300,7 @@ class KindComparison {
     if (!failure_) compare_shift(found, "the retract plane R", retract);
     const bool added = cycle.retract_word && !wanted.retract_word,
                both = added || (wanted.retract_word && wanted.bottom_word && cycle.bottom_word);
-    const bool chooses = chooses_height_by_retract(program_, original_) && found.known_start[2];
+    const bool chooses = chooses_height_by_retract(job_.program, original_) && found.known_start[2];
     if (!failure_ && chooses) compare_height_of_way(found);
     const double above_tool = cycle.retract_mm - found.start_mm.z();
     const bool raised = chooses && is_above_tool(original_) && above_tool <= roundings * rounding_mm_;
@@ -337,11 +329,14 @@ class KindComparison {
                               shift, most_shift_mm_));
   }
 
+  const Job& job_;
   const Plan& plan_;
-  const Program& program_;
   const MatchedMoves& matched_;
-  const Move& original_;
-  const double rounding_mm_, tolerance_mm_, tilt_tolerance_, most_shift_mm_;
+  const Move& original_ = matched_.original;
+  const double rounding_mm_ = rounding_allowance(original_, job_.options.write) / mm;
+  const double tolerance_mm_ = job_.options.tolerance / mm;
+  const double most_shift_mm_ =
+      (job_.options.max_correction + job_.path.frames[original_.frame].datum_shift.norm()) / mm;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;                    // of the arcs and chords so far
   std::optional<Failure> failure_;

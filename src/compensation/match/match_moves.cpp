@@ -1,11 +1,10 @@
-#include "compensation/match/match_moves.hpp"
-
 #include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
 #include <limits>
 
+#include "compensation/match/match.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
@@ -42,6 +41,79 @@ std::size_t most_moves(const Move& original, bool has_segment) {
   if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original)))
     return std::numeric_limits<std::size_t>::max();
   return original.may_jump || original.may_position ? 2 : 1;
+}
+
+constexpr double same_time = 1e-3;  // of the time of a block: F is rounded
+
+// Each piece takes as much of the time as it goes of the way.
+std::optional<Failure> share_failure(const MatchedMoves& matched) {
+  double length_mm = 0, minutes = 0;
+  for (const CorrectedMove& found : matched.found) {
+    if (!all_known(found.move->known_start) || !all_known(found.move->known_end)) return std::nullopt;
+    length_mm += length(curve_of(*found.move));
+    minutes += 1 / found.move->feed_per_min;
+  }
+  for (const CorrectedMove& found : matched.found) {
+    const Move& move = *found.move;
+    const double of_way = length(curve_of(move)) / length_mm, of_time = 1 / move.feed_per_min / minutes;
+    const double rounding = roundings * rounding_as_read(move) / mm / length_mm;
+    if (length_mm > 0 && std::abs(of_way - of_time) > same_time + rounding)
+      return matched.failure_at(move.line, fmt::format("this piece goes {:.1f} % of the way of its block in "
+                                                       "{:.1f} % of the time",
+                                                       100 * of_way, 100 * of_time));
+  }
+  return std::nullopt;
+}
+
+// G93: the pieces of a block take its time together. A block without F keeps it so.
+std::optional<Failure> time_failure(const MatchedMoves& matched) {
+  const Move& original = matched.original;
+  if (original.motion != Motion::feed || original.feed_mode != FeedMode::inverse_time) return std::nullopt;
+  double minutes = 0;
+  for (const CorrectedMove& found : matched.found) minutes += 1 / found.move->feed_per_min;
+  const double wanted = 1 / original.feed_per_min;
+  const bool same = minutes == wanted || std::abs(minutes - wanted) <= same_time * wanted;
+  if (same) return std::isfinite(wanted) ? share_failure(matched) : std::nullopt;
+  return matched.failure(
+      fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
+}
+
+// Of axes, of the centre and the radius of an arc, of the heights of a cycle.
+std::array<PackedAxisWord, 9> length_words(const Move& move) {
+  std::array<PackedAxisWord, 9> words;
+  std::ranges::copy(move.words, words.begin());
+  if (move.arc) {
+    std::ranges::copy(move.arc->centre_words, words.begin() + 3);
+    words[6] = move.arc->radius_word;
+  }
+  if (move.cycle) words[7] = move.cycle->bottom_word, words[8] = move.cycle->retract_word;
+  return words;
+}
+
+// Zero needs no point.
+bool lacks_point(const Program& program, const PackedAxisWord& word) {
+  if (!word) return false;
+  const Span number = word->number;
+  const std::string_view text =
+      std::string_view(program.text).substr(number.begin, number.end - number.begin);
+  return text.find('.') == std::string_view::npos &&
+         text.find_first_of("123456789") != std::string_view::npos;
+}
+
+// Fanuc and Haas may read a length without a point in units of 0.001 mm.
+std::optional<Failure> point_failure(const Job& job, const MatchedMoves& matched) {
+  const bool counts_units = job.program.dialect == "fanuc" || job.program.dialect == "haas";
+  if (!counts_units || job.program.integer_words != IntegerWords::unspecified) return std::nullopt;
+  const auto originals = length_words(matched.original);
+  for (const CorrectedMove& found : matched.found) {
+    const auto words = length_words(*found.move);
+    for (std::size_t k = 0; k < words.size(); ++k)
+      if (lacks_point(*found.program, words[k]) && !lacks_point(job.program, originals[k]))
+        return matched.failure_at(found.move->line,
+                                  "a length of this block has no point, that of the original has one: the "
+                                  "control may read it in units of 0.001 mm");
+  }
+  return std::nullopt;
 }
 
 }  // namespace
@@ -156,83 +228,6 @@ MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
   rounding_mm_ = rounding_as_read(matched.last()) / mm;
   return matched;
 }
-
-namespace {
-
-constexpr double same_time = 1e-3;  // of the time of a block: F is rounded
-
-// Each piece takes as much of the time as it goes of the way.
-std::optional<Failure> share_failure(const MatchedMoves& matched) {
-  double length_mm = 0, minutes = 0;
-  for (const CorrectedMove& found : matched.found) {
-    if (!all_known(found.move->known_start) || !all_known(found.move->known_end)) return std::nullopt;
-    length_mm += length(curve_of(*found.move));
-    minutes += 1 / found.move->feed_per_min;
-  }
-  for (const CorrectedMove& found : matched.found) {
-    const Move& move = *found.move;
-    const double of_way = length(curve_of(move)) / length_mm, of_time = 1 / move.feed_per_min / minutes;
-    const double rounding = roundings * rounding_as_read(move) / mm / length_mm;
-    if (length_mm > 0 && std::abs(of_way - of_time) > same_time + rounding)
-      return matched.failure_at(move.line, fmt::format("this piece goes {:.1f} % of the way of its block in "
-                                                       "{:.1f} % of the time",
-                                                       100 * of_way, 100 * of_time));
-  }
-  return std::nullopt;
-}
-
-// G93: the pieces of a block take its time together. A block without F keeps it so.
-std::optional<Failure> time_failure(const MatchedMoves& matched) {
-  const Move& original = matched.original;
-  if (original.motion != Motion::feed || original.feed_mode != FeedMode::inverse_time) return std::nullopt;
-  double minutes = 0;
-  for (const CorrectedMove& found : matched.found) minutes += 1 / found.move->feed_per_min;
-  const double wanted = 1 / original.feed_per_min;
-  const bool same = minutes == wanted || std::abs(minutes - wanted) <= same_time * wanted;
-  if (same) return std::isfinite(wanted) ? share_failure(matched) : std::nullopt;
-  return matched.failure(
-      fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
-}
-
-// Of axes, of the centre and the radius of an arc, of the heights of a cycle.
-std::array<PackedAxisWord, 9> length_words(const Move& move) {
-  std::array<PackedAxisWord, 9> words;
-  std::ranges::copy(move.words, words.begin());
-  if (move.arc) {
-    std::ranges::copy(move.arc->centre_words, words.begin() + 3);
-    words[6] = move.arc->radius_word;
-  }
-  if (move.cycle) words[7] = move.cycle->bottom_word, words[8] = move.cycle->retract_word;
-  return words;
-}
-
-// Zero needs no point.
-bool lacks_point(const Program& program, const PackedAxisWord& word) {
-  if (!word) return false;
-  const Span number = word->number;
-  const std::string_view text =
-      std::string_view(program.text).substr(number.begin, number.end - number.begin);
-  return text.find('.') == std::string_view::npos &&
-         text.find_first_of("123456789") != std::string_view::npos;
-}
-
-// Fanuc and Haas may read a length without a point in units of 0.001 mm.
-std::optional<Failure> point_failure(const Job& job, const MatchedMoves& matched) {
-  const bool counts_units = job.program.dialect == "fanuc" || job.program.dialect == "haas";
-  if (!counts_units || job.program.integer_words != IntegerWords::unspecified) return std::nullopt;
-  const auto originals = length_words(matched.original);
-  for (const CorrectedMove& found : matched.found) {
-    const auto words = length_words(*found.move);
-    for (std::size_t k = 0; k < words.size(); ++k)
-      if (lacks_point(*found.program, words[k]) && !lacks_point(job.program, originals[k]))
-        return matched.failure_at(found.move->line,
-                                  "a length of this block has no point, that of the original has one: the "
-                                  "control may read it in units of 0.001 mm");
-  }
-  return std::nullopt;
-}
-
-}  // namespace
 
 std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched) {
   const Move& original = matched.original;

@@ -3,7 +3,7 @@
 #include <numbers>
 #include <utility>
 
-#include "compensation/match/match_moves.hpp"
+#include "compensation/match/match.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/solver.hpp"
@@ -85,19 +85,6 @@ void add_borders(const Curve& arc, const PlannedSegment& planned, std::vector<Kn
     if ((begins - ends).norm() > least_jump) knots.push_back({{p + begins}, u});
   }
 }
-
-}  // namespace
-
-std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
-  const PlannedSegment& planned = plan.segments[s];
-  std::vector<Knot> knots;
-  if (may_jump(plan, s)) knots.push_back({planned.start, 0});
-  if (planned.knots.size() > 1) knots.insert(knots.end(), planned.knots.begin(), planned.knots.end() - 1);
-  add_borders(job.path.segments[s].wanted, planned, knots);
-  return knots;
-}
-
-namespace {
 
 void settle(DraftPiece& draft, double u) {
   draft.piece.u1 = u;
@@ -187,22 +174,6 @@ void project(const Curve& wanted, std::span<const Knot> corners, double rounding
   }
 }
 
-}  // namespace
-
-void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
-                std::vector<DraftPiece>& pieces) {
-  std::vector<DraftPiece> drafts = drafts_of(job, matched);
-  if (drafts.size() > 1) {
-    const std::size_t s = *matched.segment;
-    find_knots(inner_knots(job, plan, s), rounding_allowance(matched.original, job.options.write), drafts);
-    project(job.path.segments[s].wanted, corner_knots(job, plan, s), rounding_of(job, matched.original),
-            drafts);
-  }
-  for (DraftPiece& draft : drafts) pieces.push_back(std::move(draft));
-}
-
-namespace {
-
 // An end that is searched, and what the step before was.
 struct OpenEnd {
   std::size_t piece = 0;
@@ -258,6 +229,27 @@ bool is_jump(const Job& job, const Piece& piece) {
 }
 
 }  // namespace
+
+std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
+  const PlannedSegment& planned = plan.segments[s];
+  std::vector<Knot> knots;
+  if (may_jump(plan, s)) knots.push_back({planned.start, 0});
+  if (planned.knots.size() > 1) knots.insert(knots.end(), planned.knots.begin(), planned.knots.end() - 1);
+  add_borders(job.path.segments[s].wanted, planned, knots);
+  return knots;
+}
+
+void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
+                std::vector<DraftPiece>& pieces) {
+  std::vector<DraftPiece> drafts = drafts_of(job, matched);
+  if (drafts.size() > 1) {
+    const std::size_t s = *matched.segment;
+    find_knots(inner_knots(job, plan, s), rounding_allowance(matched.original, job.options.write), drafts);
+    project(job.path.segments[s].wanted, corner_knots(job, plan, s), rounding_of(job, matched.original),
+            drafts);
+  }
+  for (DraftPiece& draft : drafts) pieces.push_back(std::move(draft));
+}
 
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
   std::vector<OpenEnd> open;

@@ -68,8 +68,7 @@ double mismatch(const Curve& curve) {
 double digit_mm(const ArcTask& task) {
   const Decimals decimals = decimals_of(task.move, task.options);
   int least = decimals.inserted;
-  for (const Eigen::Index axis : plane_of(task.move))
-    least = std::min(least, decimals.end[static_cast<std::size_t>(axis)]);
+  for (const Eigen::Index axis : plane_of(task.move)) least = std::min(least, decimals.end[axis]);
   return std::pow(10.0, -least) * mm_per(task.move.unit);
 }
 
@@ -105,7 +104,8 @@ class PieceFit {
     const int normal = task.move.arc->normal;
     if (task.move.arc->flat) end_[normal] = start_[normal];
     kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
-    const Vector3 read_end = as_written(task.move, piece.from, {end_, kept_}, piece.is_end, task.options).end;
+    const Vector3 read_end =
+        as_written(task.move, piece.from, {end_, kept_}, piece.u1 == 1, task.options).end;
     samples_ = samples_of(task, fraction_at(task, piece.u0, start_), fraction_at(task, piece.u1, read_end));
   }
 
@@ -132,7 +132,7 @@ class PieceFit {
 
   FittedArc written(const Vector3& centre, const Vector3& end) const {
     FittedArc fit{.via = {end, centre}, .read = {}};
-    fit.read = as_written(task_.move, piece_.from, fit.via, piece_.is_end, task_.options);
+    fit.read = as_written(task_.move, piece_.from, fit.via, piece_.u1 == 1, task_.options);
     fit.sound = is_sound(task_, piece_, fit.read);
     fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
     return fit;
@@ -189,11 +189,11 @@ class PieceFit {
 
   void misses(const Vector3& centre, const Vector3& end, Eigen::VectorXd& r) const {
     const Vector3& normal = task_.source.arc->normal;
-    const int turns = piece_.is_end && !task_.move.arc->flat ? task_.move.arc->turns : 0;
+    const int turns = piece_.u1 == 1 && !task_.move.arc->flat ? task_.move.arc->turns : 0;
     const Curve curve{start_, end, Arc{centre, normal, sweep_between(start_, end, centre, normal, turns)}};
-    r.resize(3 * static_cast<Eigen::Index>(samples_.size()));
+    r.resize(3 * samples_.size());
     for (std::size_t k = 0; k < samples_.size(); ++k)
-      r.segment<3>(3 * static_cast<Eigen::Index>(k)) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
+      r.segment<3>(3 * k) = point_at(curve, samples_[k].v) - samples_[k].p_mm;
   }
 
   // Gauss-Newton on the mean square of the misses, pulled a little to the original centre.
@@ -233,7 +233,7 @@ bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& 
   const MoveOrientation& original = *move.orientation;
   const OrientationNumbers start = task.turned(piece.u0), end = task.turned(piece.u1);
   const bool is_kept = piece.u0 == 0 && piece.u1 == 1 && start == original.start && end == original.end &&
-                       keeps_words(task, piece, {.read = read});
+                       keeps_words(task, piece, read);
   const ArcTurn turn{.normal = read.arc->normal,
                      .sweep = read.arc->sweep,
                      .point_share = share_of_point(move, read.arc->sweep),
@@ -242,24 +242,23 @@ bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& 
 }
 
 FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from) {
-  return PieceFit(task, {0, 1, true, from}).run_polar();
+  return PieceFit(task, {0, 1, from}).run_polar();
 }
 
-bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit) {
-  if (!fit.read.arc) return false;
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const Curve& read) {
+  if (!read.arc) return false;
   const Move& move = task.move;
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
     const bool absolute = move.words[axis] && !is_relative(move, axis);
-    const double stays = absolute
-                             ? move.end_mm[k]
-                             : *piece.from[axis] + (move.words[axis] ? move.end_mm[k] - move.start_mm[k] : 0);
-    if (std::abs(fit.read.end[k] - stays) > same_mm) return false;
+    const double stays =
+        absolute ? move.end_mm[axis]
+                 : *piece.from[axis] + (move.words[axis] ? move.end_mm[axis] - move.start_mm[axis] : 0);
+    if (std::abs(read.end[axis] - stays) > same_mm) return false;
   }
   if (move.arc->radius_word)
-    return std::abs(radius_at(*fit.read.arc, fit.read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
+    return std::abs(radius_at(*read.arc, read.start) - std::abs(move.arc->radius_mm)) < 1e-6;
   const Vector3 before = move.arc->centre_mm - (move.arc->absolute_centre ? Vector3::Zero() : move.start_mm),
-                now = fit.read.arc->centre - (move.arc->absolute_centre ? Vector3::Zero() : fit.read.start);
+                now = read.arc->centre - (move.arc->absolute_centre ? Vector3::Zero() : read.start);
   for (const Eigen::Index axis : plane_of(move))
     if (std::abs(now[axis] - before[axis]) > same_mm) return false;
   return true;

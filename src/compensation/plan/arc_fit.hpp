@@ -3,8 +3,8 @@
 /// where one arc does not fit.
 #include <functional>
 
-#include "compensation/plan/curve.hpp"
 #include "compensation/plan/places.hpp"
+#include "compensation/plan/plan.hpp"
 #include "counterflex/program/rewrite.hpp"
 
 namespace counterflex {
@@ -33,8 +33,7 @@ struct ArcTask {
 
 /// A piece of the arc between two fractions, from where the text holds the tool.
 struct ArcPiece {
-  double u0 = 0, u1 = 1;
-  bool is_end = true;  ///< it ends with the move's own end
+  double u0 = 0, u1 = 1;  ///< 1: it ends with the move's own end
   TextPosition from;
 };
 
@@ -62,8 +61,8 @@ bool keeps_turn_limits(const ArcTask& task, const ArcPiece& piece, const Curve& 
 /// may end beside its planned end. Its miss is the larger one of that with and without a line behind it.
 FittedArc fit_polar_arc(const ArcTask& task, const TextPosition& from);
 
-/// Whether nothing in the block's words changes when it is written as `fit`.
-bool keeps_words(const ArcTask& task, const ArcPiece& piece, const FittedArc& fit);
+/// Whether nothing in the block's words changes when it is written as `read`.
+bool keeps_words(const ArcTask& task, const ArcPiece& piece, const Curve& read);
 
 /// Pieces of an arc, one after the other.
 struct ArcPieces {
@@ -72,10 +71,10 @@ struct ArcPieces {
   bool lack_digits = false;  ///< a chord is needed, and rounding leaves no room for it
 };
 
-/// What an arc is divided into between fractions `u0` and `u1` without a step of the correction: one arc if
-/// that is good enough, else several, divided at corners first, then in halves, and what is half a turn at
-/// most into eight, and more where that saves chords; chords of the commanded curve only where none of them
-/// fits. `from`: where the text holds the tool.
-ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const TextPosition& from);
+/// What an arc is divided into between `begin` and `end` of its task: one arc if that is good enough, else
+/// several, divided at corners first, then in halves, and what is half a turn at most into eight, and more
+/// where that saves chords; chords of the commanded curve only where none of them fits. `from`: where the
+/// text holds the tool.
+ArcPieces divide_arc(const ArcTask& task, const TextPosition& from);
 
 }  // namespace counterflex

@@ -46,9 +46,9 @@ class ArcDivider {
  public:
   ArcDivider(const ArcTask& task, const TextPosition& from) : task_(task), held_(from) {}
 
-  ArcPieces run(double u0, double u1) {
-    divide(u0, u1, 0);
-    if (chords_) put_chords(u1);
+  ArcPieces run() {
+    divide(task_.begin, task_.end, 0);
+    if (chords_) put_chords(task_.end);
     result_.held = held_;
     return std::move(result_);
   }
@@ -86,7 +86,7 @@ class ArcDivider {
     TextPosition raised = held_;
     const Curve step = as_written(task_.move, held_, {step_mm}, false, task_.options);
     const auto normal = task_.move.arc->normal;
-    raised[static_cast<std::size_t>(normal)] = step.end[normal];
+    raised[normal] = step.end[normal];
     auto fit = fitting_from(raised, u0, u1);
     if (fit) fit->step_mm = step_mm;
     return fit;
@@ -116,11 +116,11 @@ class ArcDivider {
   }
 
   std::optional<FittedArc> fitting_from(const TextPosition& from, double u0, double u1) const {
-    const ArcPiece piece{u0, u1, u1 == 1, from};
+    const ArcPiece piece{u0, u1, from};
     FittedArc fit = fit_arc(task_, piece);
     if (!fit.sound || fit.miss_mm > task_.tolerance_mm) return std::nullopt;
     if (!keeps_turn_limits(task_, piece, fit.read)) return std::nullopt;
-    const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit);
+    const bool stays = u0 == 0 && u1 == 1 && keeps_words(task_, piece, fit.read);
     if (!stays && must_halve(task_, u0, u1)) return std::nullopt;
     return fit;
   }
@@ -228,8 +228,8 @@ class ArcDivider {
 
 }  // namespace
 
-ArcPieces divide_arc(const ArcTask& task, double u0, double u1, const TextPosition& from) {
-  return ArcDivider(task, from).run(u0, u1);
+ArcPieces divide_arc(const ArcTask& task, const TextPosition& from) {
+  return ArcDivider(task, from).run();
 }
 
 }  // namespace counterflex

@@ -11,10 +11,7 @@ Answer Corrections::ask(std::size_t segment, double u, const Vector6& F, Side si
   const Segment& on = job_.path.segments[segment];
   const TargetRequest request{&model_of(job_, on), point_at(on.wanted, u), F, orientation_at(on, u),
                               directions_at(job_, on.move, u, side)};
-  const bool same = !requests_.empty() && requests_.back().model == request.model &&
-                    requests_.back().p_MT == request.p_MT && requests_.back().R_MT == request.R_MT &&
-                    requests_.back().F == F && requests_.back().directions == request.directions;
-  if (same) return requests_.size() - 1;
+  if (!requests_.empty() && requests_.back() == request) return requests_.size() - 1;
   requests_.push_back(request);
   segments_.push_back(segment);
   return requests_.size() - 1;

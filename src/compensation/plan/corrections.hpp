@@ -4,7 +4,7 @@
 #include <array>
 #include <vector>
 
-#include "compensation/plan/curve.hpp"
+#include "compensation/plan/plan.hpp"
 #include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/options.hpp"
 

@@ -183,8 +183,7 @@ std::optional<Failure> set_gain(const Job& job, PlaceSolver& solver, std::size_t
   std::array<ForwardRequest, 6> requests;
   std::array<ForwardAnswer, 6> reached;
   for (std::size_t k = 0; k < 6; ++k) {
-    const Vector3 aside =
-        (k % 2 != 0 ? -gain_probe : gain_probe) * Vector3::Unit(static_cast<Eigen::Index>(k / 2));
+    const Vector3 aside = (k % 2 != 0 ? -gain_probe : gain_probe) * Vector3::Unit(k / 2);
     requests[k] = {.model = &model, .target = end + aside, .F = F, .R = R};
   }
   solver.forwards(requests, reached);
@@ -192,9 +191,7 @@ std::optional<Failure> set_gain(const Job& job, PlaceSolver& solver, std::size_t
   for (std::size_t k = 0; k < 6; ++k) {
     if (reached[k].status != Status::converged)
       return status_failure(job, reached[k].status, segment, requests[k].target);
-    if (k % 2 != 0)
-      J.col(static_cast<Eigen::Index>(k / 2)) =
-          (reached[k - 1].X_MT.p - reached[k].X_MT.p) / (2 * gain_probe);
+    if (k % 2 != 0) J.col(k / 2) = (reached[k - 1].X_MT.p - reached[k].X_MT.p) / (2 * gain_probe);
   }
   gain = gain_margin * Eigen::JacobiSVD<Matrix3>(J).singularValues()[0];
   return std::nullopt;

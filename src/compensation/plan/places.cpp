@@ -66,6 +66,30 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
   return pieces;
 }
 
+// Whether the force inside a stretch is nowhere larger than at its ends by what reports show.
+bool is_largest_at_ends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
+                        ForceCursor& cursor) {
+  constexpr double shown_force = 0.05, shown_moment = 0.005;  // N, N m: half of the last digit
+  const auto size = [](const Vector6& F) { return Eigen::Array2d(F.head<3>().norm(), F.tail<3>().norm()); };
+  const Eigen::Array2d most =
+      size(stretch.F0).max(size(stretch.F1)) + Eigen::Array2d(shown_force, shown_moment);
+  return std::ranges::all_of(corners, [&](double u) {
+    return (size(job.forces.at(stretch.segment, u, Side::before, cursor)) <= most).all();
+  });
+}
+
+// How much the tip bends along a line that needs no places at the corners of the force; nothing where it
+// needs them.
+std::optional<double> bend_without_corners(const Job& job, PlaceSolver& solver, std::size_t index,
+                                           std::span<const double> corners, ForceCursor& cursor) {
+  const ForceChord whole{index, 0, 1, job.forces.at(index, 0, Side::after, cursor),
+                         job.forces.at(index, 1, Side::before, cursor)};
+  if (!is_largest_at_ends(job, whole, corners, cursor)) return std::nullopt;
+  const LineBend bend = bend_of(job, solver, whole, corners, cursor);
+  if (!(bend.gain * bend.command <= small_share * job.options.tolerance)) return std::nullopt;
+  return bend.gain * bend.command;
+}
+
 }  // namespace
 
 double angle_along(const Segment& segment) {
@@ -124,34 +148,6 @@ LineBend bend_of(const Job& job, PlaceSolver& solver, const ForceChord& stretch,
                            {point_at(segment.wanted, stretch.u0), point_at(segment.wanted, stretch.u1),
                             stretch.F0, stretch.F1, dF});
 }
-
-namespace {
-
-// Whether the force inside a stretch is nowhere larger than at its ends by what reports show.
-bool is_largest_at_ends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
-                        ForceCursor& cursor) {
-  constexpr double shown_force = 0.05, shown_moment = 0.005;  // N, N m: half of the last digit
-  const auto size = [](const Vector6& F) { return Eigen::Array2d(F.head<3>().norm(), F.tail<3>().norm()); };
-  const Eigen::Array2d most =
-      size(stretch.F0).max(size(stretch.F1)) + Eigen::Array2d(shown_force, shown_moment);
-  return std::ranges::all_of(corners, [&](double u) {
-    return (size(job.forces.at(stretch.segment, u, Side::before, cursor)) <= most).all();
-  });
-}
-
-// How much the tip bends along a line that needs no places at the corners of the force; nothing where it
-// needs them.
-std::optional<double> bend_without_corners(const Job& job, PlaceSolver& solver, std::size_t index,
-                                           std::span<const double> corners, ForceCursor& cursor) {
-  const ForceChord whole{index, 0, 1, job.forces.at(index, 0, Side::after, cursor),
-                         job.forces.at(index, 1, Side::before, cursor)};
-  if (!is_largest_at_ends(job, whole, corners, cursor)) return std::nullopt;
-  const LineBend bend = bend_of(job, solver, whole, corners, cursor);
-  if (!(bend.gain * bend.command <= small_share * job.options.tolerance)) return std::nullopt;
-  return bend.gain * bend.command;
-}
-
-}  // namespace
 
 void places_along(const Job& job, PlaceSolver& solver, std::size_t index, ForceCursor& cursor,
                   SegmentPlaces& places) {

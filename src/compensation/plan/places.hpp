@@ -58,11 +58,8 @@ struct SegmentPlaces {
   std::optional<double> bend{};
 };
 
-/// A rapid has its end as its only place. A feed move has places at the corners of the force, where joints
-/// reverse, and in equal steps of at most 5 mm (a 64th of a longer move), of at most one position of the
-/// tables of errors of motion and, around an arc, of at most 22.5 degrees: an arc of many turns has 16 places
-/// or more on each of them. A line of one step has no places at corners of the force where its bend is small
-/// and the force is not larger than at its ends.
+/// The places that `solve_pieces` describes, in steps of at most one position of the tables of errors of
+/// motion. A rapid has its end as its only place.
 void places_along(const Job& job, PlaceSolver& solver, std::size_t segment, ForceCursor& cursor,
                   SegmentPlaces& places);
 

@@ -8,7 +8,6 @@
 #include "compensation/plan/knots.hpp"
 #include "compensation/plan/places.hpp"
 #include "compensation/tuning.hpp"
-#include "compensation/windows/parallel.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
@@ -36,7 +35,6 @@ struct Requests {
   Corrections corrections;
   std::vector<PlanTask> tasks{};
   std::vector<Interval> intervals{};
-  std::vector<double> limits{};  // of the cut at hand
 };
 
 // Where sampling begins again: at corners of the force, where a joint reverses, often enough around an arc
@@ -53,7 +51,7 @@ bool bends_little(const Job& job, Requests& requests, const PlanTask& task, cons
   if (task.fade.acts()) return false;
   Corrections& corrections = requests.corrections;
   const ForceChord along{task.segment, 0, 1, corrections.force(task.start), F1};
-  const LineBend bend = bend_of(job, corrections.solver(), along, requests.limits, corrections.cursor());
+  const LineBend bend = bend_of(job, corrections.solver(), along, task.limits, corrections.cursor());
   return bend.command <= bend_share * room_for_knots(job, job.path.segments[task.segment]);
 }
 
@@ -72,7 +70,6 @@ void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector
   const bool may_wave = segment.wanted.arc.has_value() || steps_of_tables(job, segment) > 1;
   double u0 = 0;
   Answer a = task.start;
-  task.limits = requests.limits;
   for (const double u : task.limits) {
     const Vector6 F = corrections.force_at(task.segment, u, Side::before);
     requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, u, F, may_wave));
@@ -112,7 +109,7 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index, PlannedS
       return plan_as_programmed(job, segment, task.fade.programmed, planned);
     if (segment.cutting || job.options.blend == 0 || segment.wanted.arc)
       task.start = corrections.ask(index, 0, Side::after);
-    if (segment.cutting) find_limits(job, index, corrections.cursor(), requests.limits);
+    if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
     const Vector6 F1 = corrections.force_at(index, 1, Side::before);
     task.is_sampled = segment.cutting && !bends_little(job, requests, task, F1);
     if (task.is_sampled)
@@ -205,9 +202,9 @@ Plan plan(const Job& job) {
   const std::size_t count = job.path.segments.size();
   Plan result;
   result.segments.resize(count);
-  std::vector<std::optional<Failure>> failures(slice_count(count));
-  for_each_index(failures.size(), job.options.threads, [&](std::size_t i) {
-    failures[i] = plan_slice(job, i * slice_size, std::min(count, (i + 1) * slice_size), result);
+  std::vector<std::optional<Failure>> failures(count / slice_size + 1);
+  for_each_slice(count, job.options.threads, [&](std::size_t begin, std::size_t size) {
+    failures[begin / slice_size] = plan_slice(job, begin, begin + size, result);
   });
   const auto first = std::ranges::find_if(failures, [](const auto& failure) { return failure.has_value(); });
   if (first != failures.end()) result.failure = std::move(*first);

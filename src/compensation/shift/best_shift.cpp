@@ -6,7 +6,6 @@
 #include "compensation/shift/commands.hpp"
 #include "compensation/shift/minimax.hpp"
 #include "compensation/solve/solver.hpp"
-#include "compensation/windows/parallel.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -193,7 +192,7 @@ class Search {
     if (const auto length = v_.lengths.find(row.at.tool); length != v_.lengths.end()) add(length->second);
     if (const auto radius = v_.radii.find(row.at.tool); radius != v_.radii.end() && !row.at.away.isZero(0))
       add(radius->second);
-    row.row.J.setZero(3, static_cast<Eigen::Index>(count));
+    row.row.J.setZero(3, count);
   }
 
   // Difference quotients at the present shift. All places are solved with the k-th of their variables
@@ -211,7 +210,7 @@ class Search {
       std::vector<std::pair<std::size_t, Eigen::Index>> of;
       for (std::size_t i = 0; i < rows.size(); ++i)
         for (Eigen::Index k = 0; k < rows[i].row.J.cols(); ++k)
-          if (rows[i].row.column[static_cast<std::size_t>(k)] == variable) {
+          if (rows[i].row.column[k] == variable) {
             some.push_back(rows[i]);
             of.emplace_back(i, k);
           }
@@ -250,10 +249,10 @@ class Search {
     std::map<int, int> local;  // variables of these places alone
     std::vector<int> global;
     for (Row& row : some) {
-      const auto kept = tools ? row.row.J.cols() : static_cast<Eigen::Index>(v_.each());
+      const auto kept = tools ? row.row.J.cols() : v_.each();
       row.row.J = row.row.J.leftCols(kept).eval();
       for (Eigen::Index k = 0; k < kept; ++k) {
-        int& column = row.row.column[static_cast<std::size_t>(k)];
+        int& column = row.row.column[k];
         const auto [found, is_new] = local.try_emplace(column, static_cast<int>(global.size()));
         if (is_new) global.push_back(column);
         column = found->second;

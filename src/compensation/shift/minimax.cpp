@@ -80,13 +80,12 @@ class InteriorPoint {
       const auto count = row.J.cols();
       const Eigen::VectorXd g = row.J.transpose() * v;
       for (Eigen::Index a = 0; a < count; ++a) {
-        const int i = row.column[static_cast<std::size_t>(a)];
+        const int i = row.column[a];
         at.gradient[i] += 2 * g[a] / s;
         at.hessian(i, n) -= 4 * t * g[a] / (s * s);
         at.hessian(n, i) -= 4 * t * g[a] / (s * s);
         for (Eigen::Index b = 0; b < count; ++b)
-          at.hessian(i, row.column[static_cast<std::size_t>(b)]) +=
-              4 * g[a] * g[b] / (s * s) + 2 * row.J.col(a).dot(row.J.col(b)) / s;
+          at.hessian(i, row.column[b]) += 4 * g[a] * g[b] / (s * s) + 2 * row.J.col(a).dot(row.J.col(b)) / s;
       }
       at.gradient[n] -= 2 * t / s;
       at.hessian(n, n) += 4 * t * t / (s * s) - 2 / s;
@@ -102,7 +101,7 @@ class InteriorPoint {
 
 Vector3 MinimaxRow::at(const Eigen::VectorXd& x) const {
   Vector3 v = r;
-  for (Eigen::Index k = 0; k < J.cols(); ++k) v += x[column[static_cast<std::size_t>(k)]] * J.col(k);
+  for (Eigen::Index k = 0; k < J.cols(); ++k) v += x[column[k]] * J.col(k);
   return v;
 }
 

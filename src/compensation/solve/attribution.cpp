@@ -15,27 +15,21 @@ struct Solved {
 
 // The perfect machine is compared with the command: the shift of a datum is a deviation of the real one.
 Pose reference(const ForwardPlace& place, const Stage& stage) {
-  return stage.errors == 0 ? Pose{place.wanted.R, place.original.p} : place.wanted;
+  return stage.errors == 0 ? Pose{place.wanted.R, place.original.target} : place.wanted;
 }
 
 // The deviation under `stage` of a command, where `before` is known.
 template <typename Take,      // (std::size_t index, const Vector6& deviation, ForwardAnswer&&)
           typename Unsolved>  // (Waypoint&, Status)
-void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& stage, const Take& take,
+void deviations(const Solved& at, ForwardRequest ForwardPlace::*command, const Stage& stage, const Take& take,
                 const Unsolved& unsolved) {
   std::vector<std::size_t> asked;
   std::vector<ForwardRequest> requests;
   for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
     if (!knows_before(at.waypoints[i])) continue;
     asked.push_back(i);
-    const Target& target = at.places[i].*command;
-    requests.push_back({.model = at.places[i].model,
-                        .target = target.p,
-                        .F = at.places[i].F,
-                        .stage = stage,
-                        .R = target.R,
-                        .directions = at.places[i].directions,
-                        .rho = target.rho.size() > 0 ? &target.rho : nullptr});
+    requests.push_back(at.places[i].*command);
+    requests.back().stage = stage;
   }
   std::vector<ForwardAnswer> answers(requests.size());
   at.solver.forwards(requests, answers);
@@ -54,18 +48,20 @@ void deviations(const Solved& at, Target ForwardPlace::*command, const Stage& st
 bool any_machine(std::span<const ForwardPlace> places, bool (*is)(const Mechanism&)) {
   const Model* last = nullptr;
   for (const ForwardPlace& place : places)
-    if (place.model != std::exchange(last, place.model) && is(place.model->mechanism)) return true;
+    if (const Model* model = place.original.model;
+        model != std::exchange(last, model) && is(model->mechanism))
+      return true;
   return false;
 }
 
 // What the fixture's deflection alone is: of a rigid, perfect machine against the part.
 void add_fixture(const Solved& at) {
   for (std::size_t i = 0; i < at.waypoints.size(); ++i) {
-    const ForwardPlace& place = at.places[i];
-    if (!knows_before(at.waypoints[i]) || !place.model->mechanism.fixture) continue;
-    const Pose command{place.wanted.R, place.original.p};
+    const ForwardRequest& original = at.places[i].original;
+    if (!knows_before(at.waypoints[i]) || !original.model->mechanism.fixture) continue;
+    const Pose command{at.places[i].wanted.R, original.target};
     at.waypoints[i].causes->fixture =
-        deviation(inverse(at.solver.part(*place.model, place.F, command)) * command, command);
+        deviation(inverse(at.solver.part(*original.model, original.F, command)) * command, command);
   }
 }
 
@@ -76,7 +72,8 @@ void add_before(PlaceSolver& solver, std::span<ForwardPlace> places, std::span<W
       {solver, places, waypoints}, &ForwardPlace::original, {},
       [&](std::size_t i, const Vector6& d, ForwardAnswer&& answer) {
         waypoints[i].before = d;
-        places[i].original.rho = std::move(answer.rho);
+        places[i].rho = std::move(answer.rho);
+        places[i].original.rho = &places[i].rho;
       },
       [](Waypoint& w, Status status) {
         if (w.status == Status::converged) w.status = status;
@@ -89,7 +86,7 @@ void add_causes(PlaceSolver& solver, std::span<const ForwardPlace> places, std::
   const Solved at{solver, places, waypoints};
   // A machine with one cause alone may buckle where the real one does not: there no causes are known.
   std::vector<bool> unsolved(waypoints.size());
-  const auto add = [&](Target ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
+  const auto add = [&](ForwardRequest ForwardPlace::*command, const Stage& stage, Vector6 Causes::*result) {
     deviations(
         at, command, stage,
         [&](std::size_t i, const Vector6& d, ForwardAnswer&&) { (*waypoints[i].causes).*result = d; },

@@ -7,21 +7,11 @@
 
 namespace counterflex {
 
-/// A position (M, m), an orientation where the program gives one, and the actuators there (m, rad) where they
-/// are known.
-struct Target {
-  Vector3 p = Vector3::Zero();
-  std::optional<Matrix3> R{};
-  Eigen::VectorXd rho{};
-};
-
 /// What has been solved at a waypoint.
 struct ForwardPlace {
-  const Model* model = nullptr;
-  Target original, emitted;
-  Vector6 F = Vector6::Zero();
-  Pose wanted;  ///< X_MT
-  Directions directions{};
+  ForwardRequest original, emitted;  ///< the commands, without a stage
+  Pose wanted;                       ///< X_MT
+  Eigen::VectorXd rho{};             ///< actuators of the original command (m, rad), where they are known
 };
 
 /// Fills `before` at the ends of pieces and at places, and the actuators of the original command; a status

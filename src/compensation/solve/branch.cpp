@@ -61,51 +61,11 @@ void add_to(ActuatorWay& way, const Mechanism& mechanism, const Eigen::VectorXd&
   way.last = values + full_turns(mechanism, values, way.last);
   const Eigen::VectorXd shown = shown_values(mechanism.shown, way.last);
   for (std::size_t i = 0; i < way.least.size(); ++i) {
-    const double value = shown[static_cast<Eigen::Index>(i)];
+    const double value = shown[i];
     if (value < way.least[i].value) way.least[i] = {value, line};
     if (value > way.most[i].value) way.most[i] = {value, line};
   }
 }
-
-}  // namespace
-
-FollowedPath follow_branch(const Job& job) {
-  PlaceSolver solver(job);
-  FollowedPath followed;
-  std::optional<TipPosition> at = job.from;
-  for (const Segment& segment : job.path.segments) {
-    const Model& model = model_of(job, segment);
-    // Straight from place to place: around an arc and a turn in steps of 22.5 degrees.
-    const int parts = 1 + static_cast<int>(angle_along(segment) / angle_between_places);
-    for (int k = 0; k <= parts; ++k) {
-      const double u = static_cast<double>(k) / parts;
-      const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
-      const bool joins = at && at->model == &model;
-      if (joins && at->p_MT == next.p_MT && at->R_MT == next.R_MT &&
-          !(next.R_MT && followed.way.first.size() == 0))
-        continue;
-      Status status = joins ? solver.join(*at, next) : Status::converged;
-      at = next;
-      if (status == Status::converged && (next.R_MT || !joins)) {
-        const NominalResult there = solver.nominal(next);
-        status = there.status;
-        if (status == Status::converged && next.R_MT) {
-          add_to(followed.way, model.mechanism, actuator_values(model.mechanism, there.configuration),
-                 segment.line);
-          followed.failure = configuration_failure(model, there.configuration, segment.line);
-        }
-      }
-      if ((status == Status::singular || status == Status::unreachable) && next.R_MT)
-        followed.failure = failure_on_the_way(solver, next, status, segment.line);
-      if (status != Status::converged && !followed.failure)
-        followed.failure = status_failure(job, status, segment, next.p_MT);
-      if (followed.failure) return followed;
-    }
-  }
-  return followed;
-}
-
-namespace {
 
 // What a target states of a rotary axis whose control shows `angle` (rad), as a number.
 int stated(StatedTurns turns, double angle) {
@@ -140,33 +100,52 @@ bool is_stated(StatedTurns turns, int ordinal) {
   return turns == StatedTurns::signs || ordinal == 1 || ordinal == 4 || ordinal == 6;
 }
 
-// The failure of an axis of which the target states something, between the values that the control shows for
-// the wanted and the commanded pose (rad).
-std::optional<Failure> stated_failure(StatedTurns turns, const Travel& travel, double wanted,
-                                      double commanded, int line) {
-  const double from = std::remainder(wanted, 2 * pi), to = from + commanded - wanted;
-  if (stated(turns, from) == stated(turns, to)) return std::nullopt;
-  return Failure{
-      ErrorKind::not_compensated, line,
-      fmt::format("the correction would move {} from {:.4f} to {:.4f} deg, across {}: the control would stop "
-                  "or turn it by 360 deg; move to this place by joint angles, or move the part",
-                  travel.name, from / deg, to / deg, stated_words(turns))};
-}
-
 }  // namespace
 
-bool keeps_stated_turns(StatedTurns turns, const Mechanism& mechanism, const Eigen::VectorXd& from,
-                        const Eigen::VectorXd& to, double room) {
-  if (turns == StatedTurns::none) return true;
+std::optional<Failure> follow_branch(const Job& job, ActuatorWay& way) {
+  PlaceSolver solver(job);
+  std::optional<TipPosition> at = job.from;
+  for (const Segment& segment : job.path.segments) {
+    const Model& model = model_of(job, segment);
+    // Straight from place to place: around an arc and a turn in steps of 22.5 degrees.
+    const int parts = 1 + static_cast<int>(angle_along(segment) / angle_between_places);
+    for (int k = 0; k <= parts; ++k) {
+      const double u = static_cast<double>(k) / parts;
+      const TipPosition next{&model, point_at(segment.wanted, u), orientation_at(segment, u)};
+      const bool joins = at && at->model == &model;
+      if (joins && at->p_MT == next.p_MT && at->R_MT == next.R_MT && !(next.R_MT && way.first.size() == 0))
+        continue;
+      std::optional<Failure> failure;
+      Status status = joins ? solver.join(*at, next) : Status::converged;
+      at = next;
+      if (status == Status::converged && (next.R_MT || !joins)) {
+        const NominalResult there = solver.nominal(next);
+        status = there.status;
+        if (status == Status::converged && next.R_MT) {
+          add_to(way, model.mechanism, actuator_values(model.mechanism, there.configuration), segment.line);
+          failure = configuration_failure(model, there.configuration, segment.line);
+        }
+      }
+      if ((status == Status::singular || status == Status::unreachable) && next.R_MT)
+        failure = failure_on_the_way(solver, next, status, segment.line);
+      if (status != Status::converged && !failure) failure = status_failure(job, status, segment, next.p_MT);
+      if (failure) return failure;
+    }
+  }
+  return std::nullopt;
+}
+
+std::optional<std::size_t> axis_beyond_stated_turn(StatedTurns turns, const Mechanism& mechanism,
+                                                   const Eigen::VectorXd& from, const Eigen::VectorXd& to,
+                                                   double room) {
   int ordinal = 0;
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     if (mechanism.travel[i].kind != JointKind::revolute || !is_stated(turns, ++ordinal)) continue;
-    const auto k = static_cast<Eigen::Index>(i);
-    const double begin = std::remainder(from[k], 2 * pi), end = begin + to[k] - from[k];
+    const double begin = std::remainder(from[i], 2 * pi), end = begin + to[i] - from[i];
     for (const double side : {-room, room})
-      if (stated(turns, end + side) != stated(turns, begin)) return false;
+      if (stated(turns, end + side) != stated(turns, begin)) return i;
   }
-  return true;
+  return std::nullopt;
 }
 
 std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Piece>& pieces) {
@@ -187,13 +166,15 @@ std::optional<Failure> stated_turns_failure(const Job& job, const std::vector<Pi
                           last = actuator_values(mechanism, commanded.configuration),
                           from = shown_values(mechanism.shown, first),
                           to = shown_values(mechanism.shown, last + full_turns(mechanism, last, first));
-    int ordinal = 0;
-    for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
-      if (mechanism.travel[i].kind != JointKind::revolute || !is_stated(turns, ++ordinal)) continue;
-      const auto k = static_cast<Eigen::Index>(i);
-      if (auto failure = stated_failure(turns, mechanism.travel[i], from[k], to[k], piece.line))
-        return failure;
-    }
+    const auto axis = axis_beyond_stated_turn(turns, mechanism, from, to, 0);
+    if (!axis) continue;
+    const double begin = std::remainder(from[*axis], 2 * pi), end = begin + to[*axis] - from[*axis];
+    return Failure{
+        ErrorKind::not_compensated, piece.line,
+        fmt::format("the correction would move {} from {:.4f} to {:.4f} deg, across {}: the control "
+                    "would stop or turn it by 360 deg; move to this place by joint angles, or move "
+                    "the part",
+                    mechanism.travel[*axis].name, begin / deg, end / deg, stated_words(turns))};
   }
   return std::nullopt;
 }
@@ -209,7 +190,7 @@ std::optional<Failure> turns_failure(const Job& job, const ActuatorWay& way, Eig
   for (std::size_t i = 0; i < mechanism.travel.size(); ++i) {
     const Travel& travel = mechanism.travel[i];
     for (ActuatorWay::Extreme extreme : {way.least[i], way.most[i]}) {
-      extreme.value += more[static_cast<Eigen::Index>(i)];
+      extreme.value += more[i];
       if (extreme.value >= travel.min && extreme.value <= travel.max) continue;
       return Failure{ErrorKind::limit, extreme.line,
                      outside_travel_words(travel, extreme.value) + ", counted on over full turns from home",

@@ -8,6 +8,7 @@
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/statics/mechanism.hpp"
 
 namespace counterflex {
 namespace {
@@ -26,6 +27,69 @@ double rounding_of(LengthUnit unit, int decimals) {
 int fewest_decimals(const Move& move, const WriteOptions& options) {
   const Decimals decimals = decimals_of(move, options);
   return std::min({decimals.end[0], decimals.end[1], decimals.end[2], decimals.inserted});
+}
+
+// To four digits: what exceeds a limit is also shown as larger.
+double rounded_up(double value) {
+  return std::ceil(value * 1e4) / 1e4;
+}
+
+double controlled_position(const Mechanism& mechanism, const Vector6& deviation) {
+  return deviation.head<3>().cwiseProduct(controlled_axes(mechanism)).norm();
+}
+
+// By how much a rotation vector tilts `axis`. Of a large turn about the axis its components are another
+// angle.
+double tilt_angle(const Vector3& turn, const Vector3& axis) {
+  const Vector3 turned = exp_so3(turn) * axis;
+  return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
+}
+
+// The tilt and the spin of a waypoint whose orientation the program gives.
+std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
+  if (!w.R_MT) return std::nullopt;
+  const Vector3 turn = w.after.tail<3>(), axis = w.R_MT->col(2);
+  const double tilted = tilt_angle(turn, axis), spun = std::abs(turn.dot(axis));
+  const auto fail = [&](const char* what, double angle, double tolerance) {
+    return Failure{
+        ErrorKind::not_compensated, w.line,
+        fmt::format("verification failed: the tool is {} by {} deg at {:.1f} % of this move, the "
+                    "tolerance is {:.4f} deg",
+                    what, format_beside(angle / deg, tolerance / deg, 4), 100 * w.fraction, tolerance / deg),
+        w.corrected_line};
+  };
+  if (tilted > job.options.tilt_tolerance) return fail("tilted", tilted, job.options.tilt_tolerance);
+  const auto& most_spin = job.options.spin_tolerance;
+  if (most_spin && spun > *most_spin) return fail("turned about its axis", spun, *most_spin);
+  return std::nullopt;
+}
+
+std::string with_sign(double length, std::string_view what, bool first) {
+  const double shown = rounded(length / mm, 1);
+  return fmt::format("{}{} {:.7g}", first ? "" : " + ", what, shown);
+}
+
+/// What the value of a linear axis consists of; empty where it is not the sum of offset, program and tool,
+/// and where the control shows another value.
+std::string parts_of(const Travel& axis, const CommandedPlace& at, double value, double home) {
+  constexpr double same = 1e-6;  // m
+  const std::size_t c = std::string_view("XYZ").find(axis.name.back());
+  if (at.model.mechanism.shown.differ()) return "";
+  if (!axis.name.starts_with("axis ") || axis.name.size() != 6 || c > 2) return "";
+  const Mechanism& mechanism = at.model.mechanism;
+  const Pose X_MT_home = tip(mechanism, at.model.home);
+  const bool follows = std::abs(value - home - (at.target - X_MT_home.p)[c]) < same;
+  if (!follows || !at.frame.X_MW.R.isIdentity(same)) return "";
+  const double offset = at.frame.X_MW.p[c], tool = (at.model.home.X_MP.p - X_MT_home.p)[c];
+  const double rest = value - at.target[c] - tool;
+  const char letter = "XYZ"[c];
+  std::string text =
+      at.frame.name.empty() ? "" : with_sign(offset, fmt::format("{} {}", at.frame.name, letter), true);
+  text += with_sign(at.target[c] - offset, fmt::format("program {}", letter), text.empty());
+  if (std::abs(tool) > same)
+    text += with_sign(tool, at.tool > 0 ? fmt::format("tool T{}", at.tool) : "[tool]", false);
+  if (std::abs(rest) > same) text += with_sign(rest, "machine", false);
+  return text + " mm";
 }
 
 }  // namespace
@@ -84,15 +148,6 @@ Failure status_failure(const Job& job, Status status, const Segment& segment, co
       segment.line);
 }
 
-namespace {
-
-// To four digits: what exceeds a limit is also shown as larger.
-double rounded_up(double value) {
-  return std::ceil(value * 1e4) / 1e4;
-}
-
-}  // namespace
-
 std::optional<Failure> limit_failure(const Job& job, const Vector3& correction, int line) {
   const double size = correction.norm();
   if (size <= job.options.max_correction) return std::nullopt;
@@ -118,21 +173,6 @@ Vector3 controlled_axes(const Mechanism& mechanism) {
     if (c <= Component::z) axes[static_cast<int>(c)] = 1;
   return axes;
 }
-
-namespace {
-
-double controlled_position(const Mechanism& mechanism, const Vector6& deviation) {
-  return deviation.head<3>().cwiseProduct(controlled_axes(mechanism)).norm();
-}
-
-// By how much a rotation vector tilts `axis`. Of a large turn about the axis its components are another
-// angle.
-double tilt_angle(const Vector3& turn, const Vector3& axis) {
-  const Vector3 turned = exp_so3(turn) * axis;
-  return std::atan2(turned.cross(axis).norm(), turned.dot(axis));
-}
-
-}  // namespace
 
 double position_miss(const Job& job, const Waypoint& w) {
   return controlled_position(job.model.mechanism, w.after);
@@ -164,29 +204,6 @@ bool is_below_band(const Job& job, const Waypoint& w, double share) {
          (!most_spin || std::abs(turn.dot(axis)) <= *most_spin || is_below(about, turn, C));
 }
 
-namespace {
-
-// The tilt and the spin of a waypoint whose orientation the program gives.
-std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
-  if (!w.R_MT) return std::nullopt;
-  const Vector3 turn = w.after.tail<3>(), axis = w.R_MT->col(2);
-  const double tilted = tilt_angle(turn, axis), spun = std::abs(turn.dot(axis));
-  const auto fail = [&](const char* what, double angle, double tolerance) {
-    return Failure{
-        ErrorKind::not_compensated, w.line,
-        fmt::format("verification failed: the tool is {} by {} deg at {:.1f} % of this move, the "
-                    "tolerance is {:.4f} deg",
-                    what, format_beside(angle / deg, tolerance / deg, 4), 100 * w.fraction, tolerance / deg),
-        w.corrected_line};
-  };
-  if (tilted > job.options.tilt_tolerance) return fail("tilted", tilted, job.options.tilt_tolerance);
-  const auto& most_spin = job.options.spin_tolerance;
-  if (most_spin && spun > *most_spin) return fail("turned about its axis", spun, *most_spin);
-  return std::nullopt;
-}
-
-}  // namespace
-
 std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypoint>& waypoints) {
   for (const Waypoint& w : waypoints) {
     const double miss = position_miss(job, w);
@@ -202,6 +219,27 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
         w.corrected_line};
   }
   return std::nullopt;
+}
+
+std::string outside_travel_words(const Mechanism& named, const CommandedPlace& at) {
+  const Mechanism& mechanism = at.model.mechanism;
+  Eigen::VectorXd rho = at.rho;
+  if (rho.size() == 0) {
+    const Pose X_MT{at.R.value_or(tip(mechanism, at.model.home).R), at.target};
+    const NominalResult there = follow(at.model, at.model.home, X_MT);
+    if (there.status != Status::converged) return "an actuator leaves its travel (outside_travel)";
+    rho = actuator_values(mechanism, there.configuration);
+  }
+  const auto axis = tightest_axis(mechanism, rho);
+  if (!axis || axis->margin >= 0) return "an actuator leaves its travel (outside_travel)";
+  const Travel& travel = named.travel[axis->actuator];
+  const double home = actuator_values(mechanism, at.model.home)[axis->actuator];
+  const std::string parts = parts_of(travel, at, axis->value, home);
+  const bool linear = travel.kind == JointKind::prismatic;
+  return fmt::format(
+      "{}{}{}; check the work offset (--work, [work]), the tool's length, and {} of the machine file",
+      outside_travel_words(travel, axis->value), parts.empty() ? "" : ": ", parts,
+      linear ? "min_mm and max_mm" : "min_deg and max_deg");
 }
 
 }  // namespace counterflex

@@ -7,9 +7,7 @@
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/solve/piece_samples.hpp"
-#include "compensation/windows/parallel.hpp"
-#include "counterflex/compensation/loads_along.hpp"
-#include "counterflex/compensation/outermost_commands.hpp"
+#include "counterflex/compensation/uncertainty.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex {
@@ -37,7 +35,7 @@ Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double sh
   w.exempt = sample.between ? piece.exempt : piece.exempt_end;
   w.p_MT = all.places[s].p_MT;
   w.tool_axis = all.wanted[s].X_MT.R.col(2);
-  if (all.places[s].R_MT) w.R_MT = *all.places[s].R_MT;
+  w.R_MT = all.places[s].R_MT;
   w.wrench = all.requests[s].F;
   if (const Segment* segment = sampled.segment) {
     w.cutting = segment->cutting;
@@ -108,15 +106,12 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
   places.reserve(all.order.size());
   for (std::size_t i = 0; i < all.order.size(); ++i) {
     const std::size_t s = all.order[i];
-    const ForwardRequest& request = all.requests[s];
-    const Vector3 original = original_command(job, all.piece_of(s).piece->frame, all.places[s].p_MT);
-    places.push_back(
-        {request.model,
-         {original, all.places[s].R_MT},
-         {request.target, request.R, questions.attribution ? waypoints[i].rho : Eigen::VectorXd()},
-         request.F,
-         all.wanted[s].X_MT,
-         request.directions});
+    ForwardRequest emitted = all.requests[s], original = emitted;
+    emitted.within_travel = original.within_travel = false;
+    emitted.rho = &waypoints[i].rho;
+    original.target = original_command(job, all.piece_of(s).piece->frame, all.places[s].p_MT);
+    original.R = all.places[s].R_MT;
+    places.push_back({original, emitted, all.wanted[s].X_MT});
   }
   const auto solved = [&] {
     const auto fails = [](const Waypoint& w) { return w.status != Status::converged; };
@@ -130,12 +125,12 @@ void add_questions(const Job& job, PlaceSolver& solver, const PieceSamples& all,
   if (solved() < waypoints.size()) waypoints.resize(solved() + 1);
 }
 
-Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const Waypoint& w) {
-  const SampledPiece& at = all.piece_of(s);
-  const long tool = job.program.moves[at.piece->move].tool;
+// The failure of a command at the waypoint `w` or beside it. `rho`: its actuators, where they are known.
+Failure failure_at(const Job& job, const Waypoint& w, Status status, const TipPosition& command,
+                   const Eigen::VectorXd& rho) {
+  const Move& move = job.program.moves[w.move];
   Failure failure = status_failure(
-      job, w.status,
-      {*at.model, job.path.frames[at.piece->frame], tool, all.requests[s].target, all.requests[s].R, w.rho},
+      job, status, {*command.model, job.path.frames[move.frame], move.tool, command.p_MT, command.R_MT, rho},
       w.line);
   failure.corrected_line = w.corrected_line;
   return failure;
@@ -144,18 +139,11 @@ Failure failure_at(const Job& job, const PieceSamples& all, std::size_t s, const
 // Why the nominal machine does not come to a command beside the waypoint `w`.
 std::optional<Failure> failure_beside(const Job& job, PlaceSolver& solver, const Waypoint& w,
                                       const TipPosition& command) {
-  const Move& move = job.program.moves[w.move];
-  CommandedPlace at{*command.model, job.path.frames[move.frame], move.tool, command.p_MT, command.R_MT};
   const NominalResult there = solver.nominal(command);
-  Status status = there.status;
-  if (status == Status::converged) {
-    at.rho = actuator_values(at.model.mechanism, there.configuration);
-    if (within_travel(at.model.mechanism, at.rho)) return std::nullopt;
-    status = Status::outside_travel;
-  }
-  Failure failure = status_failure(job, status, at, w.line);
-  failure.corrected_line = w.corrected_line;
-  return failure;
+  if (there.status != Status::converged) return failure_at(job, w, there.status, command, {});
+  const Eigen::VectorXd rho = actuator_values(command.model->mechanism, there.configuration);
+  if (within_travel(command.model->mechanism, rho)) return std::nullopt;
+  return failure_at(job, w, Status::outside_travel, command, rho);
 }
 
 // Cuts the run off at the first waypoint beside which a command is not reached.
@@ -180,8 +168,11 @@ ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Ques
   PieceSamples all = sample_pieces(job, solver, pieces, questions, command);
   ForwardRun run{waypoints_of(job, all), {}};
   add_questions(job, solver, all, questions, run.waypoints);
-  if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged)
-    run.failure = failure_at(job, all, all.order[run.waypoints.size() - 1], run.waypoints.back());
+  if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged) {
+    const Waypoint& last = run.waypoints.back();
+    const ForwardRequest& request = all.requests[all.order[run.waypoints.size() - 1]];
+    run.failure = failure_at(job, last, last.status, {request.model, request.target, request.R}, last.rho);
+  }
   judge_outermost(job, solver, run);
   return run;
 }

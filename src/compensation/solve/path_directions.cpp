@@ -1,9 +1,8 @@
-#include "compensation/solve/path_directions.hpp"
-
 #include <algorithm>
 #include <cmath>
 
 #include "compensation/plan/places.hpp"
+#include "compensation/solve/branch.hpp"
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/solver.hpp"
 #include "compensation/tuning.hpp"
@@ -89,15 +88,8 @@ void add_called_hole(const Job& job, std::size_t m, const Segment* way, std::vec
   };
   if (way != nullptr) add(0, way->wanted.start);
   add(0.5, X_MW * (move.end_mm * mm + Vector3(0, 0, above)));
-  add(1, X_MW * (move.end_mm * mm));
+  add(1, wanted_of(job, move));
   places.back().ends_cut = true;
-}
-
-/// The position of a move from an unknown one.
-void add_position(const Job& job, std::size_t m, std::vector<Place>& places) {
-  const Move& move = job.program.moves[m];
-  const Pose X_MW = wanted_frame(job.path.frames[move.frame]);
-  places.push_back({m, 1, {&model_of(job, m), X_MW * (move.end_mm * mm), orientation_of(job, move)}});
 }
 
 /// The place behind `last` where a move has `known` axes; the others are where they were.
@@ -107,8 +99,7 @@ Place place_without(const Job& job, std::size_t m, const std::array<bool, 3>& kn
   Vector3 p_mm = inverse(X_MW) * last.p_MT / mm;
   Place place{m, 0, {&model_of(job, m), {}, last.R_MT}};
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    const auto k = static_cast<Eigen::Index>(axis);
-    if (known[axis]) p_mm[k] = at_mm[k];
+    if (known[axis]) p_mm[axis] = at_mm[axis];
     place.lost[axis] = !known[axis];
   }
   place.at.p_MT = X_MW * (p_mm * mm);
@@ -135,8 +126,8 @@ std::vector<Place> places_of(const Job& job, const std::optional<Vector3>& last)
       add_called_hole(job, m, segment, places);
     else if (segment != nullptr)
       add_segment(job, *segment, places);
-    else if (all_known(move.known_end))
-      add_position(job, m, places);
+    else if (all_known(move.known_end))  // from an unknown position
+      places.push_back({m, 1, {&model_of(job, m), wanted_of(job, move), orientation_of(job, move)}});
     else
       add_lost(m, move.known_end, move.end_mm);
   }
@@ -155,12 +146,13 @@ class Follower {
       for (std::size_t i = 0; i < count; ++i) positions.push_back(places[first + i].at);
       const std::vector<NominalResult> nominals = solver_.nominals(positions);
       for (std::size_t i = 0; i < count; ++i) {
-        if (nominals[i].status != Status::converged && is_lost(places[first + i])) {
-          lose_all(places[first + i]);
-          continue;
-        }
-        if (nominals[i].status != Status::converged) return std::move(path_);
-        go_to(places[first + i], actuator_values(positions[i].model->mechanism, nominals[i].configuration));
+        const Place& place = places[first + i];
+        if (nominals[i].status == Status::converged)
+          go_to(place, actuator_values(place.at.model->mechanism, nominals[i].configuration));
+        else if (std::ranges::count(place.lost, true) > 0)
+          lose_all(place);
+        else
+          return std::move(path_);
       }
     }
     return std::move(path_);
@@ -172,8 +164,6 @@ class Follower {
     std::size_t actuator;
     int sign;
   };
-
-  static bool is_lost(const Place& place) { return std::ranges::count(place.lost, true) > 0; }
 
   /// Where the known axes and the old places of the others are together no place of the machine.
   void lose_all(const Place& place) {
@@ -196,7 +186,7 @@ class Follower {
     const std::vector<bool> lost = lost_actuators(place, rho);
     std::vector<Turning> turnings;
     for (std::size_t a = 0; a < mechanism.reversal.size(); ++a) {
-      const double way = rho[static_cast<Eigen::Index>(a)] - end_.rho[static_cast<Eigen::Index>(a)];
+      const double way = rho[a] - end_.rho[a];
       const int sign = way > 0 ? 1 : -1;
       if (end_.lost[a].position || lost[a]) {
         if (end_.lost[a].before == 0) end_.lost[a].before = job_.program.moves[place.move].line;
@@ -229,14 +219,13 @@ class Follower {
     for (std::size_t axis = 0; axis < 3; ++axis) {
       if (!place.lost[axis]) continue;
       TipPosition beside = place.at;
-      beside.p_MT += probe * R_MW.col(static_cast<Eigen::Index>(axis));
-      const NominalResult nominal = std::move(solver_.nominals({&beside, 1}).front());
+      beside.p_MT += probe * R_MW.col(axis);
+      const NominalResult nominal = solver_.nominals({&beside, 1}).front();
       const bool is_found = nominal.status == Status::converged;
       Eigen::VectorXd there = is_found ? actuator_values(mechanism, nominal.configuration) : rho;
       there += full_turns(mechanism, there, rho);
       for (std::size_t a = 0; a < lost.size(); ++a) {
-        const auto k = static_cast<Eigen::Index>(a);
-        if (!is_found || std::abs(there[k] - rho[k]) > least_motion) lost[a] = true;
+        if (!is_found || std::abs(there[a] - rho[a]) > least_motion) lost[a] = true;
       }
     }
     return lost;
@@ -284,7 +273,7 @@ class Follower {
       if (nominal.status != Status::converged) return HUGE_VAL;
       const Eigen::VectorXd rho = actuator_values(at.model->mechanism, nominal.configuration);
       const Eigen::VectorXd near = rho + full_turns(at.model->mechanism, rho, end_.rho);
-      return sign * near[static_cast<Eigen::Index>(actuator)];
+      return sign * near[actuator];
     };
     double a = u1 - golden * (u1 - u0), b = u0 + golden * (u1 - u0);
     double at_a = value(a), at_b = value(b);
@@ -320,15 +309,13 @@ Directions PathDirections::at(std::size_t move, double u, Side side) const {
 }
 
 Directions PathDirections::before(std::size_t move) const {
-  const auto behind = std::ranges::partition_point(
-      changes_, [&](const DirectionChange& change) { return change.move < move; });
+  const auto behind = std::ranges::lower_bound(changes_, move, {}, &DirectionChange::move);
   return behind == changes_.begin() ? first_ : std::prev(behind)->behind;
 }
 
 std::vector<double> PathDirections::inside(std::size_t move) const {
   std::vector<double> fractions;
-  const auto is_before = [&](const DirectionChange& change) { return change.move < move; };
-  for (auto change = std::ranges::partition_point(changes_, is_before);
+  for (auto change = std::ranges::lower_bound(changes_, move, {}, &DirectionChange::move);
        change != changes_.end() && change->move == move; ++change)
     if (change->is_reversal && change->u > 0 && change->u < 1 &&
         (fractions.empty() || fractions.back() < change->u))

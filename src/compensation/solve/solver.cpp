@@ -32,12 +32,6 @@ NominalResult behind(const Model& model, const NominalResult& commanded, const D
                          actuator_values(model.mechanism, commanded.configuration) + lag);
 }
 
-// Actuator values to command for joint values.
-Eigen::VectorXd commanded_for(const Mechanism& mechanism, const Eigen::VectorXd& joints,
-                              const Directions& directions) {
-  return mechanism.reversal.empty() ? joints : Eigen::VectorXd(joints - lag_of(mechanism, directions));
-}
-
 // Whether the kernel answers two requests in one call.
 bool go_together(const TipPosition& a, const TipPosition& b) {
   return a.model == b.model;
@@ -253,16 +247,13 @@ std::vector<NominalResult> PlaceSolver::nominals(std::span<const TipPosition> po
     const std::span<NominalResult> answers = std::span(all).subspan(begin, count);
     if (m.batch) m.batch->nominals(places_, answers);
     for (std::size_t i = 0; i < count; ++i)
-      if (answers[i].status != Status::converged) answers[i] = nominal(m, run[i]);
+      if (answers[i].status != Status::converged) answers[i] = nominal(run[i]);
   }
   return all;
 }
 
 NominalResult PlaceSolver::nominal(const TipPosition& at) {
-  return nominal(of(*at.model), at);
-}
-
-NominalResult PlaceSolver::nominal(OfModel& m, const TipPosition& at) {
+  OfModel& m = of(*at.model);
   const Configuration* near = m.batch ? m.batch->nominal_near(m.place(at.p_MT, at.R_MT)) : nullptr;
   return follow(m.model, near != nullptr ? *near : m.model.home, m.pose(at.p_MT, at.R_MT));
 }
@@ -272,11 +263,11 @@ Status PlaceSolver::join(const TipPosition& from, const TipPosition& to) {
   OfModel& m = of(model);
   if (m.batch && m.batch->joins(m.place(from.p_MT, from.R_MT), m.place(to.p_MT, to.R_MT)))
     return Status::converged;
-  const NominalResult begin = nominal(m, from);
+  const NominalResult begin = nominal(from);
   if (begin.status != Status::converged) return begin.status;
   const NominalResult followed = follow(model, begin.configuration, m.pose(to.p_MT, to.R_MT));
   if (followed.status != Status::converged) return followed.status;
-  const NominalResult end = nominal(m, to);
+  const NominalResult end = nominal(to);
   if (end.status != Status::converged) return end.status;
   const auto rho = [&](const NominalResult& r) { return actuator_values(model.mechanism, r.configuration); };
   const bool same =
@@ -292,13 +283,13 @@ LineBend PlaceSolver::bend_along(const Model& model, const BatchLine& line) {
 }
 
 WantedPose PlaceSolver::wanted_alone(OfModel& m, const TipPosition& at) {
-  const NominalResult alone = nominal(m, at);
+  const NominalResult alone = nominal(at);
   if (alone.status != Status::converged) return {alone.status, m.pose(at.p_MT, at.R_MT)};
   return {alone.status, tip(m.model.mechanism, alone.configuration)};
 }
 
 ForwardAnswer PlaceSolver::forward_alone(OfModel& m, const ForwardRequest& request) {
-  const NominalResult commanded = nominal(m, {&m.model, request.target, request.R});
+  const NominalResult commanded = nominal({&m.model, request.target, request.R});
   if (commanded.status != Status::converged) return {commanded.status};
   const Mechanism& mechanism = m.model.mechanism;
   const NominalResult lagging = behind(m.model, commanded, request.directions, request.stage.errors);
@@ -316,7 +307,7 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
   const Vector3& p_MT = request.p_MT;
   if (method_ == Method::linear) return by_linear_theory(m, request);
   if (!m.only_positions && !request.R_MT) return by_outer_iteration(m, request);
-  const NominalResult start = nominal(m, {&m.model, p_MT, request.R_MT});
+  const NominalResult start = nominal({&m.model, p_MT, request.R_MT});
   if (start.status != Status::converged) return {start.status, p_MT};
   const Mechanism& mechanism = m.model.mechanism;
   const Pose X_MT{request.R_MT.value_or(tip(mechanism, start.configuration).R), p_MT};
@@ -327,8 +318,8 @@ TargetAnswer PlaceSolver::target_alone(OfModel& m, const TargetRequest& request)
           : solve_target(m.model, start.configuration, X_MT, load, {}, m.scratch());
   TargetAnswer answer{solved.status, p_MT, solved.iterations};
   if (solved.status != Status::converged) return answer;
-  const Eigen::VectorXd rho =
-      commanded_for(mechanism, actuator_values(mechanism, solved.configuration), request.directions);
+  Eigen::VectorXd rho = actuator_values(mechanism, solved.configuration);
+  if (!mechanism.reversal.empty()) rho -= lag_of(mechanism, request.directions);
   const NominalResult commanded = nominal_forward(m.model, start.configuration, rho);
   answer.status = commanded.status;
   const Pose target = tip(mechanism, commanded.configuration);
@@ -360,7 +351,7 @@ TargetAnswer PlaceSolver::by_outer_iteration(OfModel& m, const TargetRequest& re
 }
 
 TargetAnswer PlaceSolver::by_linear_theory(OfModel& m, const TargetRequest& request) {
-  const NominalResult start = nominal(m, {&m.model, request.p_MT, request.R_MT});
+  const NominalResult start = nominal({&m.model, request.p_MT, request.R_MT});
   if (start.status != Status::converged) return {start.status, request.p_MT};
   const NominalResult lagging = behind(m.model, start, request.directions);
   if (lagging.status != Status::converged) return {lagging.status, request.p_MT};
@@ -374,7 +365,7 @@ TargetAnswer PlaceSolver::by_linear_theory(OfModel& m, const TargetRequest& requ
   TargetAnswer answer{Status::converged, target.p, 1};
   std::optional<Matrix3> R;
   if (request.R_MT) R = target.R, answer.turn = rotation_between(target.R, X_MT.R);
-  const NominalResult commanded = nominal(m, {&m.model, answer.target, R});
+  const NominalResult commanded = nominal({&m.model, answer.target, R});
   answer.status =
       commanded.status == Status::converged
           ? travel_status(m.model.mechanism, actuator_values(m.model.mechanism, commanded.configuration))

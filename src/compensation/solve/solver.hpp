@@ -1,11 +1,13 @@
 #pragma once
 /// Solves waypoints of a job. Each answer depends on its own request alone.
+#include <algorithm>
 #include <map>
 #include <memory>
 #include <span>
 #include <vector>
 
 #include "counterflex/compensation/options.hpp"
+#include "counterflex/files/parallel.hpp"
 #include "counterflex/statics/equilibrium.hpp"
 
 namespace counterflex {
@@ -20,6 +22,8 @@ struct TargetRequest {
   Vector6 F = Vector6::Zero();
   std::optional<Matrix3> R_MT{};
   Directions directions{};
+
+  bool operator==(const TargetRequest&) const = default;
 };
 
 /// A command that puts the tip where it is wanted.
@@ -123,7 +127,6 @@ class PlaceSolver {
   WantedPose wanted_alone(OfModel& m, const TipPosition& at);
   TargetAnswer target_alone(OfModel& m, const TargetRequest& request);
   ForwardAnswer forward_alone(OfModel& m, const ForwardRequest& request);
-  NominalResult nominal(OfModel& m, const TipPosition& at);
   TargetAnswer by_outer_iteration(OfModel& m, const TargetRequest& request);
   TargetAnswer by_linear_theory(OfModel& m, const TargetRequest& request);
 
@@ -137,5 +140,18 @@ class PlaceSolver {
   std::vector<TurnedPlace> places_;
   std::vector<NominalAnswer> nominals_;
 };
+
+/// Segments or places that one thread works on: full batches, and several slices in a window. Of no effect on
+/// results.
+inline constexpr std::size_t slice_size = 256;
+
+/// Calls `work(begin, count)` for every slice of `items`, of at most `size`, on several threads.
+template <class Work>
+void for_each_slice(std::size_t items, int threads, const Work& work, std::size_t size = slice_size) {
+  for_each_index((items + size - 1) / size, threads, [&](std::size_t slice) {
+    const std::size_t begin = slice * size;
+    work(begin, std::min(items - begin, size));
+  });
+}
 
 }  // namespace counterflex

@@ -118,11 +118,11 @@ class TurnChoice {
       for (int to = 0; to < spin_count; ++to) {
         if (!stop.is_free && to != spin_zero) continue;
         const auto take = [&](int last) {
-          const double base = before[static_cast<std::size_t>(last)];
+          const double base = before[last];
           if (base == infinite) return;
           const Way way{i, stop.linked, stop.linked ? last : to, to};
           const double value = cost(way, base);
-          double& best = costs[static_cast<std::size_t>(to)];
+          double& best = costs[to];
           if (value >= best) return;
           best = value;
           if (from != nullptr)

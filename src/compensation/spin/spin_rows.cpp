@@ -4,8 +4,6 @@
 #include <limits>
 
 #include "compensation/solve/branch.hpp"
-#include "compensation/solve/solver.hpp"
-#include "compensation/windows/parallel.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/shown.hpp"
 #include "counterflex/statics/arm_margins.hpp"
@@ -48,13 +46,9 @@ class RowSolver {
   std::vector<std::size_t> solve(const std::vector<std::size_t>& rows, int turn, int last) {
     forwards_.clear();
     for (const std::size_t i : rows) {
-      const SpinRequest& request = requests_[i];
-      forwards_.push_back({.model = request.model,
-                           .target = request.command,
-                           .F = request.F,
-                           .within_travel = true,
-                           .R = turned(request, turn),
-                           .directions = request.directions});
+      forwards_.push_back(requests_[i].command);
+      forwards_.back().within_travel = true;
+      forwards_.back().R = turned(requests_[i], turn);
     }
     answers_.assign(rows.size(), {});
     solver_.forwards(forwards_, answers_, StopAt::end);
@@ -84,8 +78,8 @@ class RowSolver {
   // Counts the actuators on from the turn `last`; false if that is too far.
   bool count_on(std::size_t i, int turn, int last, Eigen::VectorXd& rho) const {
     if (turn == last) return true;
-    const Eigen::VectorXd& near = rows_[i].rho[static_cast<std::size_t>(last)];
-    rho += full_turns(requests_[i].model->mechanism, rho, near);
+    const Eigen::VectorXd& near = rows_[i].rho[last];
+    rho += full_turns(requests_[i].command.model->mechanism, rho, near);
     return (rho - near).cwiseAbs().maxCoeff() <= largest_step;
   }
 
@@ -93,7 +87,7 @@ class RowSolver {
     const SpinRequest& request = requests_[i];
     SpinRow& row = rows_[i];
     const auto at = static_cast<std::size_t>(turn);
-    row.margin[at] = static_cast<float>(margin_of(*request.model, nominal));
+    row.margin[at] = static_cast<float>(margin_of(*request.command.model, nominal));
     row.deviation[at] = static_cast<float>((answer.X_MT.p - request.wanted.p).norm());
     row.rho[at] = std::move(answer.rho);
   }
@@ -106,6 +100,15 @@ class RowSolver {
   std::vector<TipPosition> places_;
 };
 
+bool has_room(const Mechanism& mechanism, const Eigen::VectorXd& shown) {
+  for (std::size_t a = 0; a < mechanism.travel.size(); ++a) {
+    const Travel& travel = mechanism.travel[a];
+    const double room = travel.kind == JointKind::revolute ? travel_room : 0, value = shown[a];
+    if (value < travel.min + room || value > travel.max - room) return false;
+  }
+  return true;
+}
+
 }  // namespace
 
 std::vector<SpinRow> solve_rows(const Job& job, std::span<const SpinRequest> requests) {
@@ -117,24 +120,10 @@ std::vector<SpinRow> solve_rows(const Job& job, std::span<const SpinRequest> req
   return rows;
 }
 
-namespace {
-
-bool has_room(const Mechanism& mechanism, const Eigen::VectorXd& shown) {
-  for (std::size_t a = 0; a < mechanism.travel.size(); ++a) {
-    const Travel& travel = mechanism.travel[a];
-    const double room = travel.kind == JointKind::revolute ? travel_room : 0,
-                 value = shown[static_cast<Eigen::Index>(a)];
-    if (value < travel.min + room || value > travel.max - room) return false;
-  }
-  return true;
-}
-
-}  // namespace
-
 void keep_travel(const SpinRequest& request, Eigen::VectorXd& counted, SpinRow& row) {
   const Eigen::VectorXd& programmed = row.rho[spin_zero];
   if (programmed.size() == 0) return;  // it is not reached
-  const Mechanism& mechanism = request.model->mechanism;
+  const Mechanism& mechanism = request.command.model->mechanism;
   if (counted.size() != programmed.size()) counted = programmed;
   const Eigen::VectorXd turns = full_turns(mechanism, programmed, counted);
   counted = programmed + turns;
@@ -143,7 +132,7 @@ void keep_travel(const SpinRequest& request, Eigen::VectorXd& counted, SpinRow& 
     if (turn == spin_zero || row.deviation[turn] == forbidden) continue;
     const Eigen::VectorXd there = shown_values(mechanism.shown, row.rho[turn] + turns);
     if (!has_room(mechanism, there) ||
-        !keeps_stated_turns(request.turns, mechanism, shown, there, stated_room))
+        axis_beyond_stated_turn(request.turns, mechanism, shown, there, stated_room))
       row.deviation[turn] = forbidden;
   }
 }

@@ -4,6 +4,7 @@
 #include <span>
 #include <vector>
 
+#include "compensation/solve/solver.hpp"
 #include "compensation/spin/spin_path.hpp"
 #include "counterflex/compensation/options.hpp"
 
@@ -11,11 +12,8 @@ namespace counterflex {
 
 /// A place of the path as programmed.
 struct SpinRequest {
-  const Model* model = nullptr;
-  Vector3 command = Vector3::Zero();  ///< M (m)
-  Pose wanted;                        ///< of the tip
-  Vector6 F = Vector6::Zero();
-  Directions directions{};
+  ForwardRequest command;                 ///< without an orientation
+  Pose wanted;                            ///< of the tip
   StatedTurns turns = StatedTurns::none;  ///< by the target, or by the control's rules for its language
 };
 

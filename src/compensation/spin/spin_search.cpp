@@ -76,11 +76,11 @@ struct SpinSearch {
     const Segment& segment = job.path.segments[s];
     const Move& move = job.program.moves[segment.move];
     const Vector3 wanted = point_at(segment.wanted, u);
-    requests.push_back({.model = &model_of(job, segment),
-                        .command = original_command(job, segment.frame, wanted),
+    requests.push_back({.command = {.model = &model_of(job, segment),
+                                    .target = original_command(job, segment.frame, wanted),
+                                    .F = job.forces.at(s, u, Side::before),
+                                    .directions = directions_at(job, segment.move, u, Side::before)},
                         .wanted = {*orientation_at(segment, u), wanted},
-                        .F = job.forces.at(s, u, Side::before),
-                        .directions = directions_at(job, segment.move, u, Side::before),
                         .turns = stated_turns_of(move, job.program.dialect)});
   }
 
@@ -168,11 +168,10 @@ struct SpinSearch {
   // A position that is reached from an unknown one.
   void add_first(const Job& job, std::size_t m, bool can_turn) {
     const Move& move = job.program.moves[m];
-    const Model& model = model_of(job, m);
-    requests.push_back({.model = &model,
-                        .command = target_of(job, move),
+    requests.push_back({.command = {.model = &model_of(job, m),
+                                    .target = target_of(job, move),
+                                    .directions = directions_at(job, m, 1, Side::before)},
                         .wanted = {*orientation_of(job, move), wanted_of(job, move)},
-                        .directions = directions_at(job, m, 1, Side::before),
                         .turns = stated_turns_of(move, job.program.dialect)});
     graph.places.push_back({});
     nodes.push_back({moves + m, 1});

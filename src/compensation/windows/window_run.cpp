@@ -19,20 +19,59 @@ class Turns {
 
   /// Calls `work` on `workers` threads, one of which is the calling one. Each takes one item after another
   /// through all of its steps. Throws the first thing that a step in order has thrown.
-  void run(std::size_t workers, const std::function<void()>& work);
+  void run(std::size_t workers, const std::function<void()>& work) {
+    active_ = static_cast<int>(workers);
+    const auto worker = [&] {
+      work();
+      const std::lock_guard lock(mutex_);
+      --active_;
+    };
+    {
+      std::vector<std::jthread> others;
+      for (std::size_t t = 1; t < workers; ++t) others.emplace_back(worker);
+      worker();
+    }
+    if (thrown_) std::rethrow_exception(thrown_);
+  }
 
   /// The number of the next item.
   std::size_t take() { return items_++; }
 
   /// Calls `work` when all items before have had this step. False if the run was stopped before that, or by
   /// `work`.
-  bool in_turn(std::size_t step, std::size_t item, const std::function<void()>& work);
+  bool in_turn(std::size_t step, std::size_t item, const std::function<void()>& work) {
+    std::unique_lock lock(mutex_);
+    --active_;
+    changed_.wait(lock, [&] { return stopped_ || next_[step] == item; });
+    ++active_;
+    if (stopped_) return false;
+    lock.unlock();
+    std::exception_ptr thrown;
+    try {
+      work();
+    } catch (...) {
+      thrown = std::current_exception();
+    }
+    lock.lock();
+    ++next_[step];
+    if (thrown && !thrown_) thrown_ = thrown;
+    stopped_ = stopped_ || thrown;
+    changed_.notify_all();
+    return !stopped_;
+  }
 
   /// No step in order begins from now on.
-  void stop();
+  void stop() {
+    const std::lock_guard lock(mutex_);
+    stopped_ = true;
+    changed_.notify_all();
+  }
 
   /// How many threads a step out of order may use now.
-  int free_threads();
+  int free_threads() {
+    const std::lock_guard lock(mutex_);
+    return std::max(1, threads_ / std::max(1, active_));
+  }
 
  private:
   const int threads_;
@@ -44,53 +83,6 @@ class Turns {
   bool stopped_ = false;
   std::exception_ptr thrown_{};
 };
-
-void Turns::run(std::size_t workers, const std::function<void()>& work) {
-  active_ = static_cast<int>(workers);
-  const auto worker = [&] {
-    work();
-    const std::lock_guard lock(mutex_);
-    --active_;
-  };
-  {
-    std::vector<std::jthread> others;
-    for (std::size_t t = 1; t < workers; ++t) others.emplace_back(worker);
-    worker();
-  }
-  if (thrown_) std::rethrow_exception(thrown_);
-}
-
-bool Turns::in_turn(std::size_t step, std::size_t item, const std::function<void()>& work) {
-  std::unique_lock lock(mutex_);
-  --active_;
-  changed_.wait(lock, [&] { return stopped_ || next_[step] == item; });
-  ++active_;
-  if (stopped_) return false;
-  lock.unlock();
-  std::exception_ptr thrown;
-  try {
-    work();
-  } catch (...) {
-    thrown = std::current_exception();
-  }
-  lock.lock();
-  ++next_[step];
-  if (thrown && !thrown_) thrown_ = thrown;
-  stopped_ = stopped_ || thrown;
-  changed_.notify_all();
-  return !stopped_;
-}
-
-void Turns::stop() {
-  const std::lock_guard lock(mutex_);
-  stopped_ = true;
-  changed_.notify_all();
-}
-
-int Turns::free_threads() {
-  const std::lock_guard lock(mutex_);
-  return std::max(1, threads_ / std::max(1, active_));
-}
 
 // As many windows at once as there are threads: the steps in order are the smaller part. Each window takes
 // some megabytes, so there are never more than this.
@@ -199,7 +191,7 @@ class WindowRun {
       work.result.failure = solve_in_portions(job, work.pieces, steps_.questions, work.command, take);
     else
       take(work.result.waypoints);
-    if (steps_.judge) steps_.judge(job, work, missed);
+    if (steps_.judge) steps_.judge(work, missed);
     events_.done(job, work.result);
     failure_ = work.result.failure;
     if (failure_) turns_.stop();

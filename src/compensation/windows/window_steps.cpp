@@ -1,6 +1,5 @@
 #include "compensation/windows/window_steps.hpp"
 
-#include "compensation/emit/emit.hpp"
 #include "compensation/shift/commands.hpp"
 #include "compensation/solve/commands.hpp"
 #include "counterflex/compensation/constant_shift.hpp"
@@ -8,28 +7,6 @@
 
 namespace counterflex {
 namespace {
-
-// What every run carries from window to window.
-struct PathCarry {
-  std::optional<Vector3> command{};  // where the text ends, if that is known
-  Eigen::VectorXd actuators{};       // where the path ends, rotary ones counted on over full turns
-};
-
-// What compensating carries from window to window.
-struct WritingCarry {
-  Rewriter rewriter;
-  TextReader corrected;
-  EmitterState emitter{};
-  PathCarry path{};
-};
-
-// What verifying carries from window to window.
-struct VerifyingCarry {
-  CorrectedMoves found;
-  OtherLines lines{};
-  PathCarry path{};
-  std::optional<Failure> missed{};  // the first miss of the tolerance
-};
 
 // Where the last move ends; nothing where it comes from an unknown position.
 std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
@@ -40,9 +17,7 @@ std::optional<Vector3> last_command(const Job& job, const Program& corrected) {
 }
 
 void follow_window(const Job& job, WindowWork& work) {
-  FollowedPath followed = follow_branch(job);
-  work.result.failure = std::move(followed.failure);
-  work.actuators = std::move(followed.way);
+  work.result.failure = follow_branch(job, work.actuators);
 }
 
 void plan_window(const Job& job, WindowWork& work) {
@@ -58,14 +33,9 @@ void write_window(const Job& job, WritingCarry& carry, WindowWork& work) {
   Compensation& result = work.result;
   result.failure = turns_failure(job, work.actuators, carry.path.actuators);
   if (work.failed()) return;
-  Emission emission = emit(job, work.plan, carry.emitter);
-  result.left_alone = std::move(emission.left_alone);
-  result.narrowed = std::move(emission.narrowed);
-  result.failure = emission.failure;
+  const std::vector<MoveEdit> edits = Emitter(job, work.plan, carry.emitter, result).run();
   if (work.failed()) return;
-  result.corrected_moves = emission.corrected_moves;
-  result.other_moves = emission.other_moves;
-  result.counts = carry.rewriter.write(job.program, emission.edits);
+  result.counts = carry.rewriter.write(job.program, edits);
   result.text = std::move(result.counts.text);
   carry.corrected.read(result.text);
   carry.corrected.take_window(result.corrected);
@@ -112,13 +82,15 @@ WindowSteps steps_of_original(const Questions& questions, PathCarry& carry, Piec
           }};
 }
 
+}  // namespace
+
 WindowSteps steps_of_compensation(WritingCarry& carry, bool attribution) {
   return {.questions = {.attribution = attribution},
           .prepare = plan_window,
           .write = [&carry](const Job& job, WindowWork& work) { write_window(job, carry, work); },
           .match = match_written,
           .judge =
-              [](const Job&, WindowWork& work, const std::optional<Failure>& missed) {
+              [](WindowWork& work, const std::optional<Failure>& missed) {
                 if (!work.failed()) work.result.failure = missed;
               }};
 }
@@ -134,25 +106,10 @@ WindowSteps steps_of_verification(VerifyingCarry& carry, bool attribution) {
                 carry_path(job, carry.path, work);
               },
           .judge =
-              [&carry](const Job&, WindowWork&, const std::optional<Failure>& missed) {
+              [&carry](WindowWork&, const std::optional<Failure>& missed) {
                 if (!carry.missed) carry.missed = missed;
               }};
 }
-
-// Takes a program that is one window through all steps.
-Compensation run_steps(const Job& job, const WindowSteps& steps) {
-  WindowWork work;
-  for (const WindowSteps::Step* step : {&steps.prepare, &steps.write, &steps.match})
-    if (*step && !work.failed()) (*step)(job, work);
-  if (work.failed()) return std::move(work.result);
-  ForwardRun run = solve_pieces(job, work.pieces, steps.questions, work.command);
-  work.result.waypoints = std::move(run.waypoints);
-  work.result.failure = run.failure;
-  steps.judge(job, work, tolerance_failure(job, work.result.waypoints));
-  return std::move(work.result);
-}
-
-}  // namespace
 
 std::optional<Failure> predict_windows(JobWindows& windows, int threads, const WindowEvents& events) {
   PathCarry carry;
@@ -189,37 +146,16 @@ std::optional<Failure> compensate_windows(JobWindows& windows, const Compensatio
 
 std::optional<Failure> verify_windows(JobWindows& windows, int threads, ProgramReader& corrected,
                                       bool attribution, const WindowEvents& events) {
-  std::array<bool, 3> ignored{};
   VerifyingCarry carry{CorrectedMoves([&](Program& window) {
     if (!corrected.next()) return false;
     corrected.take_window(window);
-    ignore_axes(window, ignored);
+    ignore_axes(window, windows.input().ignored);
     return true;
   })};
-  WindowSteps steps = steps_of_verification(carry, attribution);
-  steps.write = [&, match = steps.write](const Job& job, WindowWork& work) {
-    if (!job.program.moves.empty()) ignored = job.program.moves.front().ignored;
-    match(job, work);
-  };
+  const WindowSteps steps = steps_of_verification(carry, attribution);
   if (auto failure = run_windows(windows, threads, steps, events)) return failure;
   if (auto failure = match_end(carry.lines, carry.found)) return failure;
   return carry.missed;
-}
-
-Compensation compensate(const Job& job, bool attribution) {
-  WritingCarry carry{Rewriter(job.options.write), TextReader(job.program, job.read)};
-  return run_steps(job, steps_of_compensation(carry, attribution));
-}
-
-Compensation verify(const Job& job, const Program& corrected, bool attribution) {
-  VerifyingCarry carry{CorrectedMoves(corrected)};
-  WindowSteps steps = steps_of_verification(carry, attribution);
-  steps.match = [&carry](const Job&, WindowWork& work) {
-    work.result.failure = match_end(carry.lines, carry.found);
-  };
-  Compensation result = run_steps(job, steps);
-  if (!result.failure) result.failure = carry.missed;
-  return result;
 }
 
 }  // namespace counterflex

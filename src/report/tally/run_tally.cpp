@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include "counterflex/compensation/outermost_commands.hpp"
+#include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/reach.hpp"

@@ -5,7 +5,8 @@
 #include <memory>
 #include <string>
 
-#include "compensation/solve/path_directions.hpp"
+#include "compensation/solve/branch.hpp"
+#include "compensation/support/one_window.hpp"
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/files/files.hpp"
 #include "counterflex/geometry/types.hpp"

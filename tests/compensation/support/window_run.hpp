@@ -3,6 +3,7 @@
 #include <vector>
 
 #include "compensation/support/shop.hpp"
+#include "counterflex/compensation/uncertainty.hpp"
 #include "counterflex/compensation/windows.hpp"
 
 namespace counterflex::test {

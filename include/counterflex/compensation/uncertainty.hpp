@@ -1,11 +1,26 @@
 #pragma once
-/// Bands from samples: machines, forces and tools drawn from their uncertainty, each solved.
+/// Bands of deviations: to first order, and from samples: machines, forces and tools drawn from their
+/// uncertainty, each solved.
 #include <cstddef>
+#include <map>
 #include <vector>
 
 #include "counterflex/compensation/loads_along.hpp"
 
 namespace counterflex {
+
+/// Of a machine without an uncertainty: empty.
+struct TipUncertainties {
+  std::map<const Model*, TipUncertainty>
+      by_model;  ///< of the machine and of its tools; the models outlive it
+  std::vector<DatumTangents> by_frame;
+
+  bool empty() const { return by_model.empty(); }
+};
+
+/// `model`: of the machine without a tool, with which the parts of `frames` were touched off.
+TipUncertainties tip_uncertainties(const Machine& machine, const Model& model, const ToolModels& tools,
+                                   const std::vector<WorkFrame>& frames);
 
 /// A machine that is drawn, and the force and the tip's own errors that come with it.
 struct DrawnMachine {
