@@ -1,5 +1,7 @@
 #include "counterflex/compensation/loads_along.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <atomic>
@@ -189,25 +191,33 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
 void PathPlaces::add(const Program& window) {
   for (const Move& move : window.moves) {
     const ProgramFrame& frame = window.frames[move.frame];
-    if (is_set(frame)) continue;
     for (const Curve& hole : holes_of_cycle(move)) add(hole, move, frame);
     if (move.motion == Motion::feed && all_known(move.known_start) && all_known(move.known_end))
       add(curve_of(move), move, frame);
   }
 }
 
+std::string PathPlaces::offset_of(const ProgramFrame& frame) {
+  std::string name = frame.work_offset;
+  if (frame.pose_mm) name += " with a pose";
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (frame.set_mm[axis]) name += fmt::format(" {}{}", "XYZ"[axis], *frame.set_mm[axis]);
+  return name;
+}
+
 void PathPlaces::add(const Curve& way_of_tip, const Move& move, const ProgramFrame& frame) {
-  const Curve curve = in_offset(frame) * way_of_tip;
+  const Pose place_of_program = frame.pose_mm.value_or(Pose{}) * in_offset(frame);
+  const Curve curve = place_of_program * way_of_tip;
   const double way = length(curve);
   if (!(way > 0)) return;
-  OfOffset& of = offsets_[frame.work_offset];
+  OfOffset& of = offsets_[offset_of(frame)];
   for (double next = of.spacing_mm * static_cast<double>(of.places.size()); next <= of.way_mm + way;
        next = of.spacing_mm * static_cast<double>(of.places.size())) {
     if (of.places.size() < most) {
       const double u = (next - of.way_mm) / way;
       PathPlace& place = of.places.emplace_back(PathPlace{point_at(curve, u)});
       const double turned = move.motion == Motion::feed ? u : 1;  // a hole is at the end of its move
-      if (move.orientation) place.R = in_offset(frame).R * orientation_at(turn_of(*move.orientation), turned);
+      if (move.orientation) place.R = place_of_program.R * orientation_at(turn_of(*move.orientation), turned);
       continue;
     }
     for (std::size_t k = 0; k < most / 2; ++k) of.places[k] = of.places[2 * k];

@@ -1,3 +1,5 @@
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -34,10 +36,16 @@ bool stands_alone(std::string_view name) {
   return within(number, 54, 59) || within(number, 500, 599);
 }
 
-/// Frames of robots: "UF 5" of FANUC, "USER 3" of Yaskawa, "BASE_DATA[1]" of KUKA. `name` is closed up.
+/// Frames of robots: "UF 5" of FANUC, "USER 3" of Yaskawa, "BASE_DATA[1]" of KUKA, its "$BASE" with numbers
+/// and "$BASE 1", the first one that is computed. `name` is closed up.
 std::optional<std::string> robot_frame_name(std::string_view name) {
-  constexpr std::string_view frame = "UF", user = "USER", base = "BASE_DATA[";
+  constexpr std::string_view frame = "UF", user = "USER", base = "BASE_DATA[", active = "$BASE";
   constexpr int most = 99;
+  if (name == active || name == "$NULLFRAME") return std::string(name);
+  if (name.starts_with(active)) {
+    const auto number = digits(name.substr(active.size()));
+    if (number && *number > 0) return fmt::format("{} {}", active, *number);
+  }
   if (name.starts_with(frame)) {
     const auto number = digits(name.substr(frame.size()));
     if (within(number, 0, most)) return "UF " + std::to_string(*number);

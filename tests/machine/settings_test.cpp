@@ -90,9 +90,10 @@ TEST_CASE("the control's settings are kept, axes in upper case, and no axis diff
 TEST_CASE("work offsets have the names by which programs select them, in any spelling") {
   const Machine machine = machine_with(
       "[work.g55]\n[work.\"G54.1P007\"]\n[work.\"g154 p99\"]\n[work.G505]\n"
-      "[work.\"uf 05\"]\n[work.\"base_data[3]\"]\n[work.\"user 3\"]\n[work.ROBOT]\n[work.w5]\n[work.FP1]\n");
-  for (const char* name :
-       {"G55", "G54.1 P7", "G54.1 P99", "G505", "UF 5", "BASE_DATA[3]", "USER 3", "ROBOT", "w5", "FP1"}) {
+      "[work.\"uf 05\"]\n[work.\"base_data[3]\"]\n[work.\"user 3\"]\n[work.ROBOT]\n[work.w5]\n[work.FP1]\n"
+      "[work.\"$BASE\"]\n[work.\"$base02\"]\n[work.\"$NULLFRAME\"]\n");
+  for (const char* name : {"G55", "G54.1 P7", "G54.1 P99", "G505", "UF 5", "BASE_DATA[3]", "USER 3", "ROBOT",
+                           "w5", "FP1", "$BASE", "$BASE 2", "$NULLFRAME"}) {
     CAPTURE(name);
     CHECK(machine.work.count(name) == 1);
   }
@@ -103,7 +104,7 @@ TEST_CASE("names that select no work offset are refused") {
        {"",          "G",          "G53",  "G60",    "G59.4", "G54.1",        "G54.1 P0",    "G54.1 P301",
         "G154 P100", "G54 P1",     "G499", "G600",   "G54x",  "54",           "G-54",        "G54.1 P-1",
         "G154",      "G54.1 P1.5", "g60",  "UF 100", "UF x",  "BASE_DATA[0]", "BASE_DATA[1", "USER 0",
-        "a-b"}) {
+        "a-b",       "$BASE 0",    "$TOOL"}) {
     CAPTURE(name);
     CHECK_FALSE(work_offset_name(name).has_value());
   }

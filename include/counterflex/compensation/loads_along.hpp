@@ -114,7 +114,7 @@ std::vector<OtherForce> solve_other_force(const std::vector<LoadPlace>& places, 
 
 /// A place on a feed move or in a hole.
 struct PathPlace {
-  Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset
+  Vector3 p_mm = Vector3::Zero();  ///< coordinates of the work offset; of M if the program gives its pose
   std::optional<Matrix3> R{};      ///< orientation there, where the program gives one
 };
 
@@ -125,9 +125,11 @@ class PathPlaces {
  public:
   static constexpr std::size_t most = 64;
 
-  /// The next window of the program. Moves whose start or end is not known, or whose offset the program sets,
-  /// are ignored.
+  /// The next window of the program. Moves whose start or end is not known are ignored.
   void add(const Program& window);
+
+  /// The name of the frame's work offset. It differs with what the program itself sets of the offset.
+  static std::string offset_of(const ProgramFrame& frame);
 
   /// Of the work offset of that name.
   std::span<const PathPlace> of(const std::string& offset) const;

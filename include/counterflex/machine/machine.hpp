@@ -416,14 +416,14 @@ std::string stiffness_phrase(const Tool& tool);
 // Names of work offsets.
 
 /// The name as programs' offsets have it ("G54", "G59.1", "G54.1 P3" also for "G154 P3", "G505", "UF 5",
-/// "BASE_DATA[1]", "USER 3"), of one that may be in lower case, lack the blank before P or have zeros before
-/// the number. The name of a robot's frame ("table", a work object or a variable) as it is. None for other
-/// text.
+/// "BASE_DATA[1]", "$BASE", "$BASE 1", "USER 3"), of one that may be in lower case, lack the blank before P
+/// or have zeros before the number. The name of a robot's frame ("table", a work object or a variable) as it
+/// is. None for other text.
 std::optional<std::string> work_offset_name(std::string_view text);
 
 /// What `work_offset_name` takes, for diagnostics.
 inline constexpr std::string_view work_offset_names =
     "G54 to G59, G59.1 to G59.3, G54.1 P1 to P300, G154 P1 to P99, G500 to G599, UF 0 to UF 99, "
-    "BASE_DATA[1] to BASE_DATA[99], USER 1 to USER 99 and names of work objects";
+    "BASE_DATA[1] to BASE_DATA[99], $BASE, $BASE 1, $NULLFRAME, USER 1 to USER 99 and names of work objects";
 
 }  // namespace counterflex

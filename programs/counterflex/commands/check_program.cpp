@@ -258,7 +258,7 @@ void check_reach(const Overview& program, ProgramReader reader, MachineInput inp
   for (const Remark& warning : place_program_axes(program, input))
     console.warning(program.file, warning.line, warning.what);
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
-  if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
+  for (const Remark& warning : work.assumptions) console.warning(program.file, warning.line, warning.what);
   const ToolModels tools = prepare_tools(input.machine, input.model, program.tools);
   PlacesReached places(input.model, tools, work.frames);
   const auto failure = first_unreached(std::move(reader), places);

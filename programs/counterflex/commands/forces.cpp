@@ -42,7 +42,8 @@ bool needs_machine_axes(const ForceSource& source, const Overview& program) {
 void warn_of_bare_run(const BareRun& run, const Options& options, Console& console) {
   const Overview& program = run.scan.program;
   warn_of(program, options.command, console);
-  if (!run.work.assumption.empty()) console.warning(program.file, 0, run.work.assumption);
+  for (const Remark& warning : run.work.assumptions)
+    console.warning(program.file, warning.line, warning.what);
   const ForceSource& source = run.force_input.source;
   if (options.work.empty() && needs_machine_axes(source, program))
     console.warning(program.file, 0,

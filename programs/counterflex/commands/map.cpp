@@ -118,7 +118,7 @@ MapBox place_in_machine(const Options& options, const ToolLengths& lengths, Mach
   for (const Remark& warning : place_program_axes(program, input))
     console.warning(program.file, warning.line, warning.what);
   const WorkPlace work = place_work(input.machine, input.model, shown_name(input.file.path), program);
-  if (!work.assumption.empty()) console.warning(program.file, 0, work.assumption);
+  for (const Remark& warning : work.assumptions) console.warning(program.file, warning.line, warning.what);
   MapBox box{Vector3::Constant(HUGE_VAL), Vector3::Constant(-HUGE_VAL)};
   PathEnd end;
   for (ProgramReader reader(file.bytes, program.file, read); reader.next();) {

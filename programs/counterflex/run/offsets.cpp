@@ -58,8 +58,9 @@ OffsetSearch::OffsetSearch(Run& run) : run_(run), first_(freedom_) {
     Offset offset{offset_name(run.program, in_program), pose_of_offset(run.work.frames[i], in_program)};
     offset.is_set = is_set(in_program);
     if (const auto known = machine.work.find(offset.name); known != machine.work.end()) {
-      offset.is_touched = !offset.is_set && known->second.datum.touched_at.has_value();
-      offset.is_stated = offset.is_set || known->second.datum.stated();
+      const auto& touched = run.work.frames[i].touched;
+      offset.is_touched = touched && !touched->axes.isZero(0);
+      offset.is_stated = known->second.datum.stated();
     }
     const auto same = std::ranges::find_if(offsets_, [&](const Offset& other) {
       return other.name == offset.name && difference(other.X_MW, offset.X_MW).norm() < 1e-9;

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <set>
 #include <string>
 #include <utility>
@@ -12,6 +13,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/machine/machine.hpp"
+#include "counterflex/settings/project_file.hpp"
 #include "counterflex/statics/nominal.hpp"
 #include "run/reading.hpp"
 
@@ -125,7 +127,7 @@ void warn_of_datum(Run& run) {
             ? "give the work offset with its datum, or --work machine"
             : fmt::format(
                   "state datum = {{ touched_at_mm = [x, y, z] }} in [work.{0}], else datum = \"machine\"",
-                  frame.name);
+                  toml_key(frame.name));
     const std::string warning = fmt::format(
         "{} as set independently of this machine's errors. The unloaded machine is off by "
         "({}, {}, {}) mm on average along the path, and the correction removes this. If the "
@@ -145,7 +147,7 @@ void add_input_warnings(Run& run, Command command) {
   warn_of_tools(run);
   if (auto cycles = remark_of_cycles(run.program, run.force_input.source, command))
     run.facts.warnings.push_back(std::move(*cycles));
-  if (!run.work.assumption.empty()) run.facts.warnings.push_back({0, run.work.assumption});
+  std::ranges::copy(run.work.assumptions, std::back_inserter(run.facts.warnings));
 }
 
 }  // namespace counterflex::cli

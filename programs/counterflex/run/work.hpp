@@ -14,14 +14,14 @@ namespace counterflex::cli {
 struct WorkPlace {
   /// By index into Program::frames; without names if the machine has no table of offsets.
   std::vector<WorkFrame> frames;
-  /// For a warning: moves before an offset is selected, several offsets without a table; or empty.
-  std::string assumption;
+  /// For warnings: moves before an offset is selected, offsets without a pose, poses that differ.
+  std::vector<Remark> assumptions;
 };
 
 /// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off
 /// is at the tip of the unloaded machine without its thermal shift. Throws `InputError`
-/// (ErrorKind::machine_or_force) if the table lacks an offset, or if the machine does not reach the touched
-/// point.
+/// (ErrorKind::machine_or_force) if the table lacks an offset, if the machine does not reach the touched
+/// point, or if the program gives an offset that was touched off another pose than the table.
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program);
 
