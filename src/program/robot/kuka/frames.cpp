@@ -2,6 +2,7 @@
 #include <fmt/format.h>
 
 #include <charconv>
+#include <utility>
 
 #include "program/robot/kuka/read.hpp"
 #include "program/text/lex.hpp"
@@ -45,8 +46,9 @@ std::optional<Pose> named_pose(const KrlReading& r, std::string_view name) {
   return aggregate ? pose_of(*aggregate) : std::nullopt;
 }
 
-/// A frame of the control that the program does not change is in the machine file.
+/// A frame of the control that the program does not change is in the machine file. Base 0 is the world frame.
 ProgramFrame numbered_base(const KrlReading& r, const std::string& name) {
+  if (index_of(name, "BASE_DATA[") == 0) return {.work_offset = "$NULLFRAME", .pose_mm = Pose{}};
   if (computed_in(r, name)) return {.work_offset = "$BASE"};
   return {.work_offset = name, .pose_mm = named_pose(r, name)};
 }
@@ -102,6 +104,11 @@ std::optional<KrlAggregate> data_of(const KrlReading& r, const std::string& data
   return named_aggregate(r, krl_word(data));
 }
 
+/// The text that has the spans of `data_of`.
+std::string_view text_of(const KrlReading& r, const std::string& data) {
+  return data.starts_with('{') ? std::string_view(data) : r.robot.program.text;
+}
+
 /// The frames of the motion parameters FDAT_ACT: tool and base by number, or by the name of a variable.
 void select_frame_data(KrlReading& r, const RobotLine& line) {
   const std::string& data = r.frame_data;
@@ -109,6 +116,9 @@ void select_frame_data(KrlReading& r, const RobotLine& line) {
   const auto aggregate = data_of(r, data);
   const KrlComponent* tool = aggregate ? find_component(*aggregate, "TOOL_NO") : nullptr;
   const KrlComponent* base = aggregate ? find_component(*aggregate, "BASE_NO") : nullptr;
+  const KrlComponent* mode = aggregate ? find_component(*aggregate, "IPO_FRAME") : nullptr;
+  if (mode != nullptr && krl_word(part(text_of(r, data), mode->value)) == "#TCP")
+    refuse_krl_fixed_tool(r, line, line.code.begin, "IPO_FRAME");
   const bool numbers = tool != nullptr && base != nullptr && tool->number && base->number;
   const auto number_of = [&](const KrlComponent& c) { return static_cast<long>(c.number->value); };
   const std::string name = numbers ? fmt::format("BASE_DATA[{}]", number_of(*base)) : krl_word(data);
@@ -122,9 +132,7 @@ void take_line_data(KrlReading& r) {
   const auto aggregate = data_of(r, r.line_data);
   const KrlComponent* type = aggregate ? find_component(*aggregate, "ORI_TYP") : nullptr;
   if (type == nullptr) return;
-  const bool is_own = r.line_data.starts_with('{');
-  const std::string_view text = is_own ? std::string_view(r.line_data) : r.robot.program.text;
-  set_krl_orientation_type(r, krl_word(part(text, type->value)));
+  set_krl_orientation_type(r, krl_word(part(text_of(r, r.line_data), type->value)));
 }
 
 }  // namespace
@@ -132,8 +140,20 @@ void take_line_data(KrlReading& r) {
 // Another value of the same expression may be another frame.
 void forget_krl_base(KrlReading& r, const RobotLine& line) {
   forget_position(r.robot);
-  note_uncorrected(r.robot, line, "$BASE is computed at run time: its pose is not known");
-  enter_robot_frame(r.robot, {.work_offset = fmt::format("$BASE of line {}", line.line)});
+  if (std::exchange(r.computed_base_line, line.line) != line.line) ++r.computed_bases;
+  const std::string name = fmt::format("$BASE {}", r.computed_bases);
+  note_uncorrected(
+      r.robot, line,
+      fmt::format("$BASE is computed at run time: its pose is not in the program, state it as [work.\"{}\"]",
+                  name));
+  enter_robot_frame(r.robot, {.work_offset = name});
+}
+
+void refuse_krl_fixed_tool(const KrlReading& r, const RobotLine& line, std::size_t at,
+                           std::string_view variable) {
+  refuse(r.robot.program.file, line, at,
+         fmt::format("{0}=#TCP moves the workpiece to a fixed tool, which is not supported; use {0}=#BASE",
+                     variable));
 }
 
 void assign_krl_base(KrlReading& r, const RobotLine& line, Span value) {

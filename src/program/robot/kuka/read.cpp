@@ -103,9 +103,11 @@ void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& 
     data = in_body(r) ? variable : part(text, assignment.value);
     return;
   }
+  if (variable.ends_with(".IPO_FRAME") && value == "#TCP")
+    refuse_krl_fixed_tool(r, line, assignment.variable.begin, variable);
+  if (variable.starts_with("FDAT_ACT.")) r.frame_data = "FDAT_ACT";
   if (variable == "$IPO_MODE" && value == "#TCP")
-    refuse(r.robot.program.file, line, assignment.variable.begin,
-           "$IPO_MODE=#TCP moves the workpiece to a fixed tool, which is not supported; use $IPO_MODE=#BASE");
+    refuse_krl_fixed_tool(r, line, assignment.variable.begin, variable);
   if (variable.starts_with("$BASE.") || variable.starts_with("$TOOL."))
     refuse(r.robot.program.file, line, assignment.variable.begin,
            fmt::format("'{}' changes one number of a frame, which is not supported; assign all numbers: "

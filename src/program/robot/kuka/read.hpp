@@ -30,6 +30,8 @@ struct KrlReading {
   std::map<std::string, KrlNamed, std::less<>> named{};  ///< by name in upper case
   std::string tool{};                                    ///< right side of the last $TOOL
   int lost_tool = 0;                ///< line behind which the tool is not known; 0: it is
+  int computed_bases = 0;           ///< how many $BASE of unknown pose were selected
+  int computed_base_line = 0;       ///< the line of the last one
   std::string frame_data{};         ///< right side of the last FDAT_ACT
   std::string line_data{};          ///< right side of the last LDAT_ACT
   std::string why_no_circles{};     ///< why CIRC is not followed: $CIRC_TYPE; empty if it is
@@ -79,8 +81,13 @@ void read_data_line(KrlReading& reading, const RobotLine& line);
 void assign_krl_base(KrlReading& reading, const RobotLine& line, Span value);
 void assign_krl_tool(KrlReading& reading, const RobotLine& line, Span value);
 
-/// The pose of $BASE is not known from here on.
+/// The pose of $BASE is not known from here on. Its name is "$BASE 1", the next one's "$BASE 2", also where
+/// the text before it has more lines.
 void forget_krl_base(KrlReading& reading, const RobotLine& line);
+
+/// Refuses `variable`, $IPO_MODE or IPO_FRAME, with the value #TCP.
+[[noreturn]] void refuse_krl_fixed_tool(const KrlReading& reading, const RobotLine& line, std::size_t at,
+                                        std::string_view variable);
 
 /// BAS(#BASE, 3) and other calls of the package that selects frames and speeds. `at`: the byte behind BAS.
 void read_krl_bas(KrlReading& reading, const RobotLine& line, std::size_t at);

@@ -192,7 +192,7 @@ TEST_CASE("bases, tools and speeds of KRL and of BAS are followed") {
   CHECK(program.moves[2].tool == 7);
   CHECK(program.moves[2].feed_mm_min == 120000);
   CHECK(!program.moves[2].known_start[0]);
-  CHECK(frame(3).work_offset == "$BASE of line 12");
+  CHECK(frame(3).work_offset == "$BASE 1");
   CHECK(!frame(3).pose_mm);
   CHECK(!program.moves[3].known_start[0]);
   CHECK(program.moves[3].feed_mm_min == 0);
@@ -234,19 +234,49 @@ TEST_CASE("a frame that a condition, a routine or an expression gives is not kno
     REQUIRE(!program.moves.empty());
     return program.frames[program.moves.back().frame].work_offset;
   };
-  CHECK(frame_behind("IF x THEN\nBAS(#BASE,5)\nENDIF\n", "") == "$BASE of line 4");
+  CHECK(frame_behind("IF x THEN\nBAS(#BASE,5)\nENDIF\n", "") == "$BASE 1");
   CHECK(frame_behind("IF x THEN\nBAS(#BASE,4)\nENDIF\n", "") == "BASE_DATA[4]");
-  CHECK(frame_behind("frames()\n", "DEF frames()\nBAS(#BASE,5)\nEND\n") == "$BASE of line 3");
+  CHECK(frame_behind("frames()\n", "DEF frames()\nBAS(#BASE,5)\nEND\n") == "$BASE 1");
   CHECK(frame_behind("first()\n", "DEF first()\nsecond()\nEND\nDEF second()\n$BASE=BASE_DATA[1]\nEND\n") ==
-        "$BASE of line 3");
+        "$BASE 1");
   CHECK(frame_behind("x=frames()\n", "DEFFCT INT frames()\n$BASE=BASE_DATA[1]\nRETURN 1\nENDFCT\n") ==
-        "$BASE of line 3");
+        "$BASE 1");
   CHECK(frame_behind("speed()\n", "DEF speed()\nBAS(#VEL_CP,0.5)\nEND\n") == "BASE_DATA[4]");
-  CHECK(frame_behind("$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 2,Y 0,Z 0,A 0,B 0,C 0}\n", "") == "$BASE of line 3");
-  CHECK(frame_behind("BASE_DATA[5]=BASE_DATA[6]\n$BASE=BASE_DATA[5]\n", "") == "$BASE of line 4");
-  CHECK(frame_behind("BASE_DATA[5].X=BASE_DATA[5].X+1\nBAS(#BASE,5)\n", "") == "$BASE of line 4");
-  CHECK(frame_behind("BASE_DATA[n]=other\nBAS(#BASE,5)\n", "") == "$BASE of line 4");
-  CHECK(frame_behind("BAS(#BASE,5)\n", "DEF set()\nBASE_DATA[5].Z=2\nEND\n") == "$BASE of line 3");
+  CHECK(frame_behind("$BASE={X 1,Y 0,Z 0,A 0,B 0,C 0}:{X 2,Y 0,Z 0,A 0,B 0,C 0}\n", "") == "$BASE 1");
+  CHECK(frame_behind("BASE_DATA[5]=BASE_DATA[6]\n$BASE=BASE_DATA[5]\n", "") == "$BASE 1");
+  CHECK(frame_behind("BASE_DATA[5].X=BASE_DATA[5].X+1\nBAS(#BASE,5)\n", "") == "$BASE 1");
+  CHECK(frame_behind("BASE_DATA[n]=other\nBAS(#BASE,5)\n", "") == "$BASE 2");
+  CHECK(frame_behind("BAS(#BASE,5)\n", "DEF set()\nBASE_DATA[5].Z=2\nEND\n") == "$BASE 1");
+}
+
+TEST_CASE("the names of computed bases count on in the program, whatever lines are before them") {
+  const std::string motion = "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  const std::string text = "$BASE=BASE_DATA[n]\n" + motion + "BAS(#BASE,2)\n" + motion + "x=f($BASE.X)\n" +
+                           "$BASE=BASE_DATA[n]\n" + motion;
+  for (const char* const before : {"", ";COUNTERFLEX 1\n;HASH\n"}) {
+    const Program program = read_statements(before + text);
+    REQUIRE(program.moves.size() == 3);
+    const auto name = [&](std::size_t m) { return program.frames[program.moves[m].frame].work_offset; };
+    CHECK(name(0) == "$BASE 1");
+    CHECK(name(1) == "BASE_DATA[2]");
+    CHECK(name(2) == "$BASE 2");
+  }
+  const Program program = read_statements(text);
+  REQUIRE(!program.left_alone.empty());
+  CHECK(program.left_alone[0].why.find("[work.\"$BASE 1\"]") != std::string::npos);
+}
+
+TEST_CASE("base 0 is the world frame") {
+  for (const char* const selects : {"$BASE=BASE_DATA[0]\n", "BAS(#BASE,0)\n",
+                                    "FDAT_ACT={TOOL_NO 1,BASE_NO 0,IPO_FRAME #BASE}\nBAS(#FRAMES)\n"}) {
+    CAPTURE(selects);
+    const Program program = read_statements(std::string(selects) + "LIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n");
+    REQUIRE(program.moves.size() == 1);
+    const ProgramFrame& frame = program.frames[program.moves[0].frame];
+    CHECK(frame.work_offset == "$NULLFRAME");
+    REQUIRE(frame.pose_mm);
+    CHECK(frame.pose_mm->p == Vector3::Zero());
+  }
 }
 
 TEST_CASE("a motion whose tool is not known is refused with the line that selects it") {
@@ -400,12 +430,12 @@ TEST_CASE("behind an external base, and a value read into $BASE or $TOOL, these 
     const Program program = read_krl(start + statement + line + "END\n" + routines);
     return program.frames[program.moves.back().frame].work_offset;
   };
-  CHECK(base_behind("BAS(#EX_BASE,1)\n") == "$BASE of line 5");
-  CHECK(base_behind("BAS(what,1)\n$TOOL=TOOL_DATA[3]\n") == "$BASE of line 5");
-  CHECK(base_behind("SREAD(a,b,$BASE)\n") == "$BASE of line 5");
-  CHECK(base_behind("CREAD(1,s,m,t,o,\"%r\",$BASE.X)\n") == "$BASE of line 5");
-  CHECK(base_behind("ok=EKI_GetFrame(\"S\",\"F\",$BASE)\n") == "$BASE of line 5");
-  CHECK(base_behind("part()\n", "DEF part()\nSREAD(a,b,$BASE)\nEND\n") == "$BASE of line 5");
+  CHECK(base_behind("BAS(#EX_BASE,1)\n") == "$BASE 1");
+  CHECK(base_behind("BAS(what,1)\n$TOOL=TOOL_DATA[3]\n") == "$BASE 1");
+  CHECK(base_behind("SREAD(a,b,$BASE)\n") == "$BASE 1");
+  CHECK(base_behind("CREAD(1,s,m,t,o,\"%r\",$BASE.X)\n") == "$BASE 1");
+  CHECK(base_behind("ok=EKI_GetFrame(\"S\",\"F\",$BASE)\n") == "$BASE 1");
+  CHECK(base_behind("part()\n", "DEF part()\nSREAD(a,b,$BASE)\nEND\n") == "$BASE 1");
   CHECK(base_behind("SWRITE(s[],t,o,\"%r\",$BASE.X)\n") == "BASE_DATA[1]");
   CHECK(base_behind("BAS(#VEL_PTP,100)\nBAS(#ACC_CP,50)\n") == "BASE_DATA[1]");
   const auto refusal = [&](const std::string& statement) {
@@ -421,6 +451,11 @@ TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
   CHECK(refusal_of("SLIN {X 1}\n").starts_with("job.src:2:1: error: SLIN is a spline motion"));
   CHECK(refusal_of("GOTO again\n").starts_with("job.src:2:1: error: GOTO is not supported"));
   CHECK(refusal_of("$IPO_MODE=#TCP\n").starts_with("job.src:2:1: error: $IPO_MODE=#TCP moves the workpiece"));
+  const std::string act = "FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME ";
+  CHECK(refusal_of(act + "#TCP}\nBAS(#CP_PARAMS,0.02)\n")
+            .starts_with("job.src:3:1: error: IPO_FRAME=#TCP moves the workpiece"));
+  CHECK(refusal_of("FDAT_ACT.IPO_FRAME = #TCP\n").starts_with("job.src:2:1: error: FDAT_ACT.IPO_FRAME=#TCP"));
+  CHECK(refusal_of(act + "#BASE}\nBAS(#CP_PARAMS,0.02)\n") == "none");
   CHECK(refusal_of("$BASE.X = 5\n").starts_with("job.src:2:1: error: '$BASE.X' changes one number"));
   CHECK(refusal_of("<<<<<<< HEAD\n").starts_with("job.src:2:1: error: '<<<<<<<' is a conflict marker"));
   CHECK(diagnostic_of([] {
