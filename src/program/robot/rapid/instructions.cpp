@@ -78,6 +78,7 @@ constexpr auto reading_functions = std::to_array<std::string_view>({
     "BITXOR",
     "BITXORDNUM",
     "BYTETOSTR",
+    "CALCJOINTT",
     "CALCROBT",
     "CAMGETEXPOSURE",
     "CAMGETLOADEDJOB",
@@ -244,13 +245,13 @@ constexpr auto reading_functions = std::to_array<std::string_view>({
 
 /// Functions that write an argument.
 constexpr auto writing_functions = std::to_array<std::string_view>(
-    {"CALCJOINTT", "CALCROTAXFRAMEZ", "CALCROTAXISFRAME", "DEFACCFRAME", "GETNEXTCYCLICBOOL",
-     "GETNEXTMECHUNIT", "GETNEXTSYM", "GETSIGNALORIGIN", "GETTASKNAME", "PARIDPOSVALID", "PARIDROBVALID",
-     "READDIR", "STRTOVAL", "TASKSINSYNC", "TESTANDSET"});
+    {"CALCROTAXFRAMEZ", "CALCROTAXISFRAME", "DEFACCFRAME", "GETNEXTCYCLICBOOL", "GETNEXTMECHUNIT",
+     "GETNEXTSYM", "GETSIGNALORIGIN", "GETTASKNAME", "PARIDPOSVALID", "PARIDROBVALID", "READDIR", "STRTOVAL",
+     "TASKSINSYNC", "TESTANDSET"});
 
 /// The instructions write the variable of these options: "WaitDI start, 1\MaxTime:=5\TimeFlag:=late;".
-constexpr auto options_with_result =
-    std::to_array<std::string_view>({"BREAKFLAG", "DVALUEATTIMEOUT", "RESULT", "TIMEFLAG", "VALUEATTIMEOUT"});
+constexpr auto options_with_result = std::to_array<std::string_view>(
+    {"BREAKFLAG", "DVALUEATTIMEOUT", "ERRORNUMBER", "RESULT", "TIMEFLAG", "VALUEATTIMEOUT"});
 
 constexpr auto linear_instructions = std::to_array<std::string_view>(
     {"MOVELAO",   "MOVELDO",   "MOVELGO", "MOVELSYNC", "MOVECAO", "MOVECDO", "MOVECGO",
@@ -262,9 +263,11 @@ constexpr auto joint_instructions =
     std::to_array<std::string_view>({"MOVEABSJ", "MOVEEXTJ", "MOVEJAO", "MOVEJDO", "MOVEJGO", "MOVEJSYNC",
                                      "TRIGGJ", "TRIGGABSJ", "SPOTJ", "SPOTMJ"});
 
-bool is_move(std::string_view name) {
-  return is_among(name, std::to_array<std::string_view>({"MOVEL", "MOVEJ", "MOVEC", "MOVEABSJ"}));
-}
+/// Motions that only read their arguments.
+constexpr auto reading_moves = std::to_array<std::string_view>(
+    {"MOVEL",     "MOVELAO",  "MOVELDO",   "MOVELGO", "MOVELSYNC", "MOVEC",   "MOVECAO",
+     "MOVECDO",   "MOVECGO",  "MOVECSYNC", "MOVEJ",   "MOVEJAO",   "MOVEJDO", "MOVEJGO",
+     "MOVEJSYNC", "MOVEABSJ", "MOVEEXTJ",  "TRIGGL",  "TRIGGC",    "TRIGGJ",  "TRIGGABSJ"});
 
 }  // namespace
 
@@ -282,7 +285,7 @@ bool is_motionless_function(std::string_view name) {
 
 bool only_reads(std::string_view name) {
   if (is_motionless_instruction(name)) return !is_among(name, writing_instructions);
-  return is_among(name, reading_functions) || is_move(name);
+  return is_among(name, reading_functions) || is_among(name, reading_moves);
 }
 
 bool is_option_with_result(std::string_view name) {

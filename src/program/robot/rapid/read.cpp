@@ -58,7 +58,7 @@ void read_state(RapidReading& r, const RobotLine& line, const RapidStatement& st
 std::optional<JointPlace> joints_of(const RapidReading& r, const RapidStatement& statement) {
   const std::string_view text = r.robot.program.text;
   const RapidMotion motion = rapid_motion(text, statement);
-  if (!motion.complete || motion.has("NOEOFFS") || r.robot.open_bodies > 0) return std::nullopt;
+  if (!motion.complete || r.robot.open_bodies > 0) return std::nullopt;
   if (rapid_word(part(text, motion.zone)) != "FINE") return std::nullopt;
   const RapidPlace place{text, r.module, statement.span.begin};
   return rapid_joints(place, motion.targets.front());

@@ -70,7 +70,7 @@ TEST_CASE("an instruction or a function that writes its argument makes the value
         "IF a AND lower(p2,2) SetDO do1,1;\n", "IF a IF b Incr p2.trans.x;\n",
         "WHILE NOT(a OR lower(p2,2)) DO\nENDWHILE\n", "SetGO go1,Round(2+elsewhere(p2));\n",
         "RETURN lower(p2,2);\n", "VAR bool ok:=lower(p2,2);\n", "WaitDI di1,1\\TimeFlag:=p2;\n",
-        "GetDataVal \"p3\",p2;\n"}) {
+        "GetDataVal \"p3\",p2;\n", "j:=CalcJointT(p3,tool0\\ErrorNumber:=p2);\n"}) {
     CAPTURE(statement);
     CHECK(why(statement) == target);
   }
@@ -79,6 +79,8 @@ TEST_CASE("an instruction or a function that writes its argument makes the value
        {"Add n,p3.trans.z;\n", "p3:=Offs(p2,0,0,5);\n", "d:=Distance(p2.trans,p3.trans);\n",
         "n:=height(p2);\n", "show p2;\n",
         "IF (p2.trans.z>5 OR (p2.trans.x>1)) AND (p2.trans.y>1) THEN\nENDIF\n",
+        "j:=CalcJointT(p2,tool0\\WObj:=w);\n", "MoveAbsJ CalcJointT(p2,tool0\\WObj:=w),v100,fine,tool0;\n",
+        "MoveJDO p2,v100,fine,tool0\\WObj:=w,do1,1;\n", "TriggJ p2,v100,trig1,z1,tool0\\WObj:=w;\n",
         "TPWrite \"z\"\\Num:=p2.trans.z;\n", "WaitTime\\InPos,p2.trans.z;\n", "SetDO do1,1;\n"}) {
     CAPTURE(statement);
     CHECK(why(statement) == "");

@@ -46,6 +46,26 @@ TEST_CASE("a UTF-8 byte order mark before MODULE hides no declaration") {
   }
 }
 
+TEST_CASE(
+    "the place of MoveAbsJ is known with NoEOffs, too, which only leaves out offsets of external axes") {
+  ReadOptions options;
+  options.kinematics = [](const JointPlace& place, std::int32_t, const ProgramFrame&) {
+    CHECK(place.external[0] == 850);
+    return std::optional(Pose{Matrix3::Identity(), Vector3(1, 2, 3)});
+  };
+  for (const std::string option : {"", "\\NoEOffs"}) {
+    CAPTURE(option);
+    const std::string start = "MoveAbsJ [[0,0,0,0,30,0],[850,9E9,9E9,9E9,9E9,9E9]]" + option;
+    const std::string target = "[[10,20,30],[1,0,0,0],[0,0,0,0],[850,9E9,9E9,9E9,9E9,9E9]]";
+    const Program program =
+        read_program(module_of("", start + ",v100,fine,tool0;\nMoveL " + target + ",v100,fine,tool0;\n"),
+                     "job.mod", options);
+    REQUIRE(program.moves.size() == 1);
+    CHECK(program.moves[0].starts_uncorrected);
+    CHECK(program.moves[0].start_mm == Vector3(1, 2, 3));
+  }
+}
+
 TEST_CASE("the targets of MoveL and MoveJ are read with their quaternions, frames, feeds and zones") {
   const Program program = read_rapid(milling_job);
   CHECK(program.dialect == "abb");
