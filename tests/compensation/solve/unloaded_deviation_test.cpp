@@ -39,6 +39,26 @@ TEST_CASE("places are at equal distances along the feed moves of an offset, at m
   CHECK(places.of("G59").empty());
 }
 
+TEST_CASE(
+    "places in a frame whose pose the program gives are in the machine frame, apart from those of its "
+    "offset") {
+  Program program = read_program(square, "part.ngc", {});
+  const ProgramFrame in_table = program.frames[program.moves.back().frame];
+  ProgramFrame& given = program.frames[program.moves.back().frame];
+  given.pose_mm = Pose{exp_so3(Vector3(0, 0, pi / 2)), Vector3(10, 20, 30)};
+  PathPlaces places;
+  places.add(program);
+  CHECK(PathPlaces::offset_of(in_table) == "G55");
+  CHECK(places.of("G55").empty());
+  const auto in_machine = places.of(PathPlaces::offset_of(given));
+  REQUIRE(in_machine.size() > 1);
+  CHECK(std::abs(in_machine.back().p_mm.x() - 10) < 1e-9);
+  CHECK(in_machine.back().p_mm.y() > 20.4);
+  ProgramFrame set = in_table;
+  set.set_mm[1] = 15;
+  CHECK(PathPlaces::offset_of(set) != "G55");
+}
+
 TEST_CASE("holes of cycles have places, from the height where the feed begins to the bottom") {
   const PathPlaces places = places_of("G21 G90 G54\nG0 X0 Y0 Z5\nG81 X10 Y20 Z-10 R2\nX30\nG80\nM30\n");
   const auto holes = places.of("G54");
