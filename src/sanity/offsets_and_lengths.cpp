@@ -61,7 +61,7 @@ SanityCheck check_work_offset(const std::vector<std::string>& selected, bool kno
   return {
       "work offset", SanityState::doubtful,
       fmt::format("the program selects {}, but no work offset is given: its coordinates are taken as machine "
-                  "coordinates; give --work {}=X,Y,Z or [work.{}] in the machine file, or confirm with "
+                  "coordinates; give --work '{}=X,Y,Z' or [work.\"{}\"] in the machine file, or confirm with "
                   "--work machine",
                   named(names), names.front(), names.front())};
 }

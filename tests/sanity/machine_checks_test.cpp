@@ -136,7 +136,7 @@ TEST_CASE("a selected offset without a pose is doubtful") {
   CHECK(check_work_offset({""}, false).state == SanityState::ok);
   const SanityCheck unknown = check_work_offset({"", "G55"}, false);
   CHECK(unknown.state == SanityState::doubtful);
-  CHECK(contains(unknown.text, "--work G55="));
+  CHECK(contains(unknown.text, "--work 'G55=X,Y,Z'"));
   CHECK(contains(unknown.text, "--work machine"));
   CHECK(contains(check_work_offset({"G54", "G54", "G55", "G54"}, false).text, "selects G54, G55, but"));
 }
