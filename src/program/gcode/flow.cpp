@@ -221,6 +221,7 @@ void mark_differences_unknown(const Dialect& dialect, const ModalState& before, 
     now.tool_length.reset();
     now.tool_length_mm.reset();
     now.known[2] = false;
+    now.cycle.initial.reset();
   }
   if (now.tool != before.tool) now.tool = 0;
   if (now.tool_chosen != before.tool_chosen) now.tool_chosen.reset();

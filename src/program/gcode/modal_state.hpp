@@ -48,6 +48,8 @@ struct CycleState {
   bool begun = false;
   /// The tool is at the retract plane: after a hole with G99, or at the begin of a series without R.
   bool left_at_retract = false;
+  /// The last hole left Z unknown, because the corrected text may have another R: `initial` stays known.
+  bool left_at_earlier_retract = false;
   /// Z was programmed in a hole that is not followed or may be skipped: the Z that an inserted word would
   /// replace is unknown.
   bool bottom_unknown = false;

@@ -224,7 +224,8 @@ void apply_tool_length(const Block& block, Reading& r) {
   else if ((!number || number != state.tool_length) && !counts_on)
     state.known[2] = false;
 
-  if (number != state.tool_length || length_mm != state.tool_length_mm) state.cycle.initial.reset();
+  if (!number || number != state.tool_length || length_mm != state.tool_length_mm)
+    state.cycle.initial.reset();
   state.tool_length = number;
   state.tool_length_mm = length_mm;
   if (!length_mm) remark_tool_length(block, r);

@@ -78,6 +78,50 @@ TEST_CASE("in a relative cycle R is relative to the start and Z to R") {
   CHECK(program.moves[1].cycle->bottom_mm == -1);
 }
 
+TEST_CASE("R under G91 is relative to the start of the series, also behind holes under G98 and G99") {
+  const auto last_of = [](const char* dialect, const std::string& level) {
+    return read("G21 G90 G0 X1. Y1. Z-50.\nG91\n" + level +
+                    " G81 X3. Z-1. R-.5 F300.\nG99 Y4.\nX1. Z-49.5 R-.5\n",
+                dialect)
+        .moves.back();
+  };
+  for (const char* level : {"G98", "G99"}) {
+    CAPTURE(level);
+    for (const char* dialect : {"linuxcnc", "fanuc", "haas"}) {
+      CAPTURE(dialect);
+      const Move hole = last_of(dialect, level);
+      REQUIRE(hole.cycle.has_value());
+      CHECK(hole.cycle->retract_mm == -50.5);
+      CHECK(hole.cycle->bottom_mm == -100);
+      CHECK(hole.end_mm == Vector3(5, 5, -50.5));
+      CHECK(hole.known_end[2]);
+    }
+    // RS274/NGC counts from the height of the tool.
+    for (const char* dialect : {"grbl", "mach3"}) {
+      CAPTURE(dialect);
+      const Move hole = last_of(dialect, level);
+      CHECK_FALSE(hole.cycle.has_value());
+      CHECK(hole.makes_hole);
+      CHECK(hole.known_end == std::array<bool, 3>{true, true, false});
+    }
+  }
+}
+
+TEST_CASE("R under G91 gives no height if Z is unknown where the series begins") {
+  for (const char* before : {"G28 Z0\n", "G43 H1\n", "/G43 H1\n", "G55\n"}) {
+    CAPTURE(before);
+    const Program between =
+        read(std::string("G21 G90 G98 G0 X0 Y0 Z10\nG91 G81 X3 Z-1 R-.5 F300\nG99 Y4\n") + before + "X1\n");
+    CHECK_FALSE(between.moves.back().cycle.has_value());
+    CHECK_FALSE(between.moves.back().known_end[2]);
+  }
+  const Program program = read("G21 G90 G98 G0 X0 Y0\nG91 G81 X3 Z-1 R-.5 F300\nX4\n");
+  CHECK(program.moves[1].makes_hole);
+  CHECK(program.moves[2].makes_hole);
+  CHECK(program.moves[2].end_mm.x() == 7);
+  CHECK(program.left_alone.at(0).why.starts_with("R under G91 is a difference from a height"));
+}
+
 TEST_CASE(
     "depths that change from coordinates to differences cannot be shifted, unless they are programmed "
     "again") {

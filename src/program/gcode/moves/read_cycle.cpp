@@ -69,6 +69,7 @@ void set_height_after_hole(ModalState& state, const CycleMove& hole) {
     state.position_mm.z() = cycle.initial.value_or(0);
   }
   cycle.left_at_retract = at_retract;
+  cycle.left_at_earlier_retract = at_retract && !retract_known;
 }
 
 /// X and Y. Relative words apply again in each repeat.
@@ -93,10 +94,11 @@ bool is_first(const Reading& r) {
 }
 
 /// Whether the series begins. If the initial height was lost (by a hole that is not followed, or by another
-/// work offset), it stays unknown.
+/// work offset, which makes all axes unknown), it stays unknown.
 bool begins_series(ModalState& state) {
   CycleState& cycle = state.cycle;
-  if (!state.known[2]) cycle.initial.reset();
+  const bool follows_hole = cycle.left_at_earlier_retract && state.known[0] && state.known[1];
+  if (!state.known[2] && !follows_hole) cycle.initial.reset();
   if (cycle.begun) return false;
   cycle.begun = cycle.left_at_retract = true;
   if (state.known[2]) cycle.initial = state.position_mm.z();
@@ -122,6 +124,26 @@ bool turns_sticky_numbers(Reading& r, bool begins) {
   return keeps_bottom || keeps_retract;
 }
 
+/// Whether the height is known from which R counts under G91. LinuxCNC and shop controls count from the
+/// height at which the series began, other controls perhaps from that of the tool.
+bool is_base_known(const Reading& r, bool is_at_initial) {
+  const CycleState& cycle = r.state.cycle;
+  if (!cycle.relative) return true;
+  const bool counts_from_initial = r.dialect.macro_words || r.dialect.family == linuxcnc_family;
+  return cycle.initial && (counts_from_initial || is_at_initial);
+}
+
+/// A hole whose heights are not known. It keeps the shift of the block before it.
+void forget_heights(const Block& block, Reading& r, Move& move) {
+  move.cycle.reset();
+  move.makes_hole = true;
+  r.state.known[2] = false;
+  forget_initial(r.state);
+  note_uncorrected(block, r,
+                   "R under G91 is a difference from a height that is not known; program Z before the cycle, "
+                   "or G90");
+}
+
 /// A hole that is not changed.
 void fix_hole(Reading& r, Move& move, bool turned) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -145,6 +167,7 @@ void read_cycle(const Block& block, Reading& r) {
   const std::string_view why = why_not_followed(r);
   const bool begins = begins_series(state);
   const bool turned = turns_sticky_numbers(r, begins);
+  const bool base_known = is_base_known(r, state.known[2] && state.position_mm.z() == state.cycle.initial);
   keep_sticky(r, r.sorted.word('Z'), state.cycle.bottom);
   keep_sticky(r, r.sorted.word('R'), state.cycle.retract);
 
@@ -180,6 +203,8 @@ void read_cycle(const Block& block, Reading& r) {
   if (!followed) {
     fix_hole(r, move, turned);
     note_uncorrected(block, r, why.empty() ? why_hole_stays(r, turned) : why);
+  } else if (!base_known && hole.repeats > 0) {
+    forget_heights(block, r, move);
   }
   finish_move(r, move);
   if (move.block_delete) forget_initial(state);

@@ -300,6 +300,7 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   if (has_known_orientation(r.state)) move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
   r.moved_by_machine.fill(false);
+  r.state.cycle.left_at_earlier_retract = false;
   move.relative = r.relative();
   move.incremental = move.relative ? 0 : r.relative_axes & 7U;
   move.feed_mm_min = feed_mm_min(r);
@@ -340,6 +341,7 @@ void allow_plain_changes(Move& move) {
 void move_by_machine(Reading& r, std::size_t axis) {
   r.state.known[axis] = false;
   r.moved_by_machine[axis] = true;
+  if (axis == 2) r.state.cycle.initial.reset();
 }
 
 void fix_axis(Reading& r, Move& move, std::size_t axis) {
