@@ -4,10 +4,19 @@
 #include <cmath>
 
 #include "program/gcode/remarks.hpp"
+#include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
 namespace {
+
+constexpr int most_digits = 4;
+
+bool has_more_digits(double value, int decimals) {
+  constexpr double rounding = 1e-6;
+  const double scaled = value * power_of_ten(decimals);
+  return std::abs(scaled - std::round(scaled)) > rounding;
+}
 
 std::optional<double> value_in(const Reading& r, Span expression) {
   return value_of_word(part(r.program.text, expression), r.dialect, r.variables).value;
@@ -24,23 +33,30 @@ bool counts_from_position(const Block& block, const Reading& r) {
   return relative;
 }
 
+/// Digits behind the decimal point of a value that has not too many of them.
+int decimals_of(double value) {
+  int decimals = 0;
+  while (has_more_digits(value, decimals)) ++decimals;
+  return decimals;
+}
+
 void evaluate_word(Word& word, bool relative, const Block& block, Reading& r) {
   // Sinumerik and shop controls may set the variable before or after they read it in the same block.
   const bool in_order = !r.dialect.sinumerik_words && !r.dialect.macro_words;
   if (word.literal || (!in_order && !block.assignments.empty())) return;
   const std::optional<double> value = value_in(r, word.number);
-  if (!value || ((relative || word.mode == DistanceMode::relative) && has_too_many_digits(*value))) return;
+  const bool is_difference = relative || word.mode == DistanceMode::relative;
+  if (!value || (is_difference && has_too_many_digits(*value))) return;
   word.literal = word.point = true;
   word.value = *value;
-  word.decimals = 0;
+  word.decimals = is_difference ? decimals_of(*value) : 0;
   count_evaluated(r.program, block.line);
 }
 
 }  // namespace
 
 bool has_too_many_digits(double value) {
-  constexpr double digits = 1e4, rounding = 1e-6;
-  return std::abs(value * digits - std::round(value * digits)) > rounding;
+  return has_more_digits(value, most_digits);
 }
 
 void count_evaluated(Program& program, int line) {

@@ -66,7 +66,9 @@ bool has_one_shift(const Dialect& dialect) {
 }
 
 bool shift_locally(const Block& block, Reading& r) {
-  if (!is_plain(block, r, "") || r.state.relative || r.state.shifts.turn_rad != 0) return false;
+  // G52 of LinuxCNC has the same effect under G91.
+  const bool adds = r.state.relative && r.dialect.family != linuxcnc_family;
+  if (!is_plain(block, r, "") || adds || r.state.shifts.turn_rad != 0) return false;
   Vector3& shift = has_one_shift(r.dialect) ? r.state.shifts.set_mm : r.state.shifts.local_mm;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const Word* word = axis_word(r, axis)) coordinate(shift, axis) = length_mm(r, *word);
@@ -74,23 +76,15 @@ bool shift_locally(const Block& block, Reading& r) {
   return true;
 }
 
-/// Digits of the last word that set the axis.
-int decimals_of_position(const Program& program, std::size_t axis) {
-  for (auto move = program.moves.rbegin(); move != program.moves.rend(); ++move)
-    if (move->words[axis]) return move->words[axis]->decimals;
-  return program.before && program.before->words[axis] ? program.before->words[axis]->decimals : 0;
-}
-
 /// G92 at a position that the tool has reached: its words are shifted by the correction at this place, so
-/// that the coordinates do not change.
+/// that the coordinates do not change. The shift has the digits of all words that led to the position, and
+/// zeros at the end are not written.
 void add_set_position(const Block& block, Reading& r) {
-  std::array<int, 3> decimals{};
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (axis_word(r, axis) != nullptr) decimals[axis] = decimals_of_position(r.program, axis);
+  constexpr int digits_of_positions = 9;
   Move& move = start_move(block, r, Motion::rapid);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (const Word* word = axis_word(r, axis))
-      move.words[axis] = AxisWord{word->number, std::max(word->decimals, decimals[axis])};
+      move.words[axis] = AxisWord{word->number, std::max(word->decimals, digits_of_positions)};
   move.relative = false;
   move.handling = Handling::held;
   move.end_mm = r.state.position_mm;
@@ -253,10 +247,12 @@ bool set_work_offset(const Block& block, Reading& r) {
   if (!is_plain(block, r, "LPR") || l == nullptr || p == nullptr || (turn != nullptr && turn->value != 0))
     return false;
   const bool extended = l->value == 20 && r.dialect.macro_words;  // Fanuc, Haas: L20 P3 is G54.1 P3
-  if (r.state.relative || !empty(block.block_delete) || p->value < 0 || p->value > (extended ? 300 : 9))
-    return false;
+  // G10 of LinuxCNC and GRBL has the same effect under G91.
+  const bool linuxcnc_or_grbl = (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
+  const bool adds = r.state.relative && !linuxcnc_or_grbl;
+  if (adds || !empty(block.block_delete) || p->value < 0 || p->value > (extended ? 300 : 9)) return false;
   const std::string acting = name_of(current(r).work_offset);
-  const bool acts = p->value == 0 && (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
+  const bool acts = p->value == 0 && linuxcnc_or_grbl;
   if (p->value == 0 && !acts) return false;  // Fanuc's shift of all offsets
   const std::string name = extended ? fmt::format("G54.1 P{}", count_of(*p))
                            : acts   ? acting

@@ -281,21 +281,25 @@ void apply_set_data(const Block& block, Reading& r) {
   if (l != nullptr && !l->literal)
     return lose_offsets(block, r, "G10 with a computed L may set offsets or tools");
   if (sets_offset(l) && set_work_offset(block, r)) return;
-  note_uncorrected(block, r, "G10 sets offsets or tools");
+  const Word* p = r.sorted.word('P');
+  const bool of_active = (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
+  const bool sets_one = sets_offset(l) && (l->value == 2 || of_active) && p != nullptr && p->literal &&
+                        p->value >= 1 && p->value <= 9;
+  note_uncorrected(block, r,
+                   sets_one && l->value == 20
+                       ? "G10 L20 sets a work offset by the position of the tool, which is not followed"
+                       : "G10 sets offsets or tools");
   if (sets_tools(l)) {
     lose_tool_lengths(r);
     return;
   }
   if (!sets_offset(l)) return;
-  const Word* p = r.sorted.word('P');
-  const bool clear = p != nullptr && p->literal && l->value == 2 && p->value >= 1 && p->value <= 9;
-  const bool of_active = (r.dialect.family & (linuxcnc_family | grbl_family)) != 0;
   if (p != nullptr && p->literal && p->value == 0 && of_active) {
     r.state.offsets_set |= offset_bit(offset_that_acts(r));
   } else {
     r.state.offsets_set =
-        clear ? static_cast<std::uint16_t>(r.state.offsets_set | 1u << (static_cast<int>(p->value) - 1))
-              : std::uint16_t{0xffff};
+        sets_one ? static_cast<std::uint16_t>(r.state.offsets_set | 1u << (static_cast<int>(p->value) - 1))
+                 : std::uint16_t{0xffff};
   }
   displace_by_data(r);
   if ((r.state.displaced & data) != 0) r.state.known.fill(false), end_contour(r);

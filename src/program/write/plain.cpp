@@ -25,11 +25,13 @@ struct PlainEdit {
   std::array<double, 3> position_mm;
 };
 
-/// Whether the coordinates of the words alone determine the end of the move.
+/// Whether the coordinates of the words alone determine the end of the move, and words keep their number of
+/// digits: those of G92 may get more.
 bool is_plain_move(const Move& move) {
   return !move.arc && !move.cycle && !move.called && move.angle_axis == 0 && !move.relative &&
-         move.incremental == 0 && !move.orientation && !move.block_delete && !move.fixed[0] &&
-         !move.fixed[1] && !move.fixed[2] && all_known(move.known_end);
+         move.incremental == 0 && !move.orientation && !move.block_delete &&
+         move.handling != Handling::held && !move.fixed[0] && !move.fixed[1] && !move.fixed[2] &&
+         all_known(move.known_end);
 }
 
 /// A digit first, or a minus and a digit: no plus, and a zero before the decimal point.

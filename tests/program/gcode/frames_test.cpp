@@ -58,7 +58,7 @@ TEST_CASE(
     CHECK(set.start_mm == set.end_mm);
     REQUIRE((set.words[0] && set.words[1]));
     CHECK_FALSE(set.words[2]);
-    CHECK(set.words[0]->decimals == 4);
+    CHECK(set.words[0]->decimals == 9);
     const Program ended = read(frames_start + "G92 X0. Y1.\nG1 X1.\nG92.1\nG1 X1.\n", "linuxcnc");
     CHECK(followed(ended));
     CHECK((end_in_offset(ended) - Vector3(1, 20, 5)).norm() < 1e-12);
@@ -197,13 +197,40 @@ TEST_CASE(
 TEST_CASE(
     "G10 that rotates an offset, is incremental, or sets another offset by the tool's position is not "
     "followed") {
-  for (const char* block :
-       {"G10 L2 P1 X1. R30.", "G91 G10 L2 P1 X1.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
+  for (const char* block : {"G10 L2 P1 X1. R30.", "G10 L20 P2 X0", "/G10 L2 P1 X1.", "G10 L2 P1 X#1"}) {
     CAPTURE(block);
     CHECK_FALSE(
         read(frames_start + block + "\nG90 G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n").left_alone.empty());
   }
-  CHECK_FALSE(read(frames_start + "G10 L2 P0 X1.\nG1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
+  for (const char* block : {"G10 L2 P0 X1.", "G91 G10 L2 P1 X1."})
+    CHECK_FALSE(read(frames_start + block + "\nG90 G1 X1. Y1. Z1.\n", "fanuc").left_alone.empty());
+}
+
+TEST_CASE(
+    "in LinuxCNC and GRBL the words of G10 have the same effect under G91, in LinuxCNC also those of G52") {
+  for (const std::string dialect : {"linuxcnc", "grbl"}) {
+    CAPTURE(dialect);
+    for (const char* block : {"G10 L2 P1 X3.\n", "G10 L20 P1 Y-2.23\n", "G52 X-2.\n"}) {
+      CAPTURE(block);
+      if (dialect == "grbl" && block[1] == '5') continue;
+      const std::string end = "G90 G1 X5. Y2. Z7.\n";
+      const Program absolute = read(frames_start + block + end, dialect),
+                    relative = read(frames_start + "G91\n" + block + end, dialect);
+      CHECK(followed(relative));
+      CHECK(end_in_offset(relative) == end_in_offset(absolute));
+      CHECK(frame_of_last(relative) == frame_of_last(absolute));
+    }
+  }
+}
+
+TEST_CASE("G10 L20 of an offset that does not act is unknown only where this offset is selected") {
+  const std::string text = frames_start + "G10 L20 P2 X5. Y5. Z5.\nG1 X5. Y2. Z7.\n";
+  for (const char* dialect : {"linuxcnc", "grbl"}) {
+    CAPTURE(dialect);
+    CHECK(followed(read(text, dialect)));
+    CHECK_FALSE(followed(read(text + "G55 G1 X1. Y1. Z1.\n", dialect)));
+    CHECK(followed(read(text + "G55 G1 X1. Y1. Z1.\nG54 X1. Y1. Z1.\n", dialect)));
+  }
 }
 
 TEST_CASE("a shift that ends where states are unknown ends, and one that a condition sets stays in doubt") {
