@@ -168,6 +168,19 @@ TEST_CASE("K is a count on a Fanuc, and the least peck on a Haas or beside I and
   CHECK(ends_at("haas", "Q1. L2") == 2);
 }
 
+TEST_CASE("a cycle in another plane than G17 is not followed, and Z is unknown behind it") {
+  for (const char* hole : {"G18 G99 G81 X1 Z2 Y-14 R-2", "G19 G98 G81 X-14 Y1 Z2 R-2",
+                           "G18 G99 G91 G81 X1 Y-14 R-2", "G81 X1 Y1 Z2 R3\nG18 X3"}) {
+    CAPTURE(hole);
+    const Program program = read(std::string("G21 G90 G0 X0 Y0 Z10\n") + hole + " F100\nG90 G17 G1 X5\n");
+    const Move &before_last = program.moves[program.moves.size() - 2], &last = program.moves.back();
+    CHECK_FALSE(before_last.cycle.has_value());
+    CHECK_FALSE(last.known_start[2]);
+    CHECK_FALSE(last.known_start[hole[2] == '9' ? 0 : 1]);
+    CHECK(program.left_alone.at(0).why == "cycles are corrected in G17 only");
+  }
+}
+
 TEST_CASE("a cycle with an expression is fixed") {
   const Program program = read("G21 G90 G0 X0 Y0 Z10\nG81 X[1+2] Y2 Z-5 R2 F100\nX3 Z#1\n");
   CHECK(program.moves[1].fixed[0]);

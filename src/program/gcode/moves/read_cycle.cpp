@@ -148,16 +148,18 @@ void forget_heights(const Block& block, Reading& r, Move& move) {
 void fix_hole(Reading& r, Move& move, bool turned) {
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const bool depth = axis == 2 && (!r.state.relative || turned);
-    if (depth || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
+    const bool other_plane = r.state.normal != 2 && (axis == 2 || static_cast<int>(axis) == r.state.normal);
+    if (depth || other_plane || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
   move.cycle.reset();
   forget_initial(r.state);
 }
 
 std::string_view why_hole_stays(const Reading& r, bool turned) {
+  if (r.state.normal != 2) return "cycles are corrected in G17 only";
   if (plain_words(r) && !repeats_of(r)) return "the count of its repeats is not an integer from 0 to 9999";
   return turned ? "Z and R of an earlier hole are differences under G91 and coordinates under G90"
-                : "the cycle's words are not all plain numbers in G17";
+                : "the cycle's words are not all plain numbers";
 }
 
 }  // namespace
