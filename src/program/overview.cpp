@@ -39,9 +39,10 @@ void add_tools_and_offsets(Overview& overview, const std::vector<Move>& moves) {
 }
 
 void add_move(Overview& overview, const Move& move) {
-  ++overview.moves;
+  const bool moves = moves_tool(move);
+  overview.moves += moves;
   overview.plunges += is_plunge(move);
-  overview.rapids += move.motion == Motion::rapid;
+  overview.rapids += moves && move.motion == Motion::rapid;
   overview.last_block_number = std::max(overview.last_block_number, move.block_number.value_or(0));
   const bool is_hole = move.cycle || move.makes_hole;
   if ((move.motion == Motion::feed || is_hole) && move.tool == 0 && !overview.first_cut_without_tool)

@@ -129,6 +129,11 @@ class MotionPlanner::Window {
     for (std::size_t axis = 0; axis < 3; ++axis)
       carried_.holds[axis] = move.starts_uncorrected || (carried_.holds[axis] && !lost[axis]);
     const MoveHandling handling = handling_of(m);
+    if (moves_tool(move)) count(move, handling);
+    carry(m, handling);
+  }
+
+  void count(const Move& move, MoveHandling handling) {
     switch (handling) {
       case MoveHandling::corrected:
         ++plan_.corrected;
@@ -152,7 +157,6 @@ class MotionPlanner::Window {
         break;
     }
     count_kind(move);
-    carry(m, handling);
   }
 
   std::string why_held(const Move& move) const {

@@ -304,6 +304,14 @@ inline bool changes_height_inside(const Move& move) {
   return move.handling != Handling::held && flat_mm < most_flat * (move.end_mm - move.start_mm).norm();
 }
 
+/// Whether the block moves the tool. G92 and G10 L20 give coordinates to the place of the tool: they are
+/// moves without way, whose words are shifted.
+inline bool moves_tool(const Move& move) {
+  const bool may_move = move.motion == Motion::feed || move.handling != Handling::held || move.relative ||
+                        move.may_insert_words || move.cycle || move.called || move.makes_hole;
+  return may_move || move.start_mm != move.end_mm;
+}
+
 /// Whether a word of `axis` is a difference from the move's start.
 inline bool is_relative(const Move& move, std::size_t axis) {
   return move.relative || (move.incremental >> axis & 1) != 0;

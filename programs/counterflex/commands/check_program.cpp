@@ -34,7 +34,7 @@ void add_once(std::vector<T>& list, const T& value) {
 }
 
 void add_move(const Program& program, const Move& move, MoveFacts& facts) {
-  ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  if (moves_tool(move)) ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
   const bool whole_way = move.arc && all_known(move.known_start) && all_known(move.known_end);
   const Extent extent = whole_way ? extent_of(move) : Extent{move.end_mm, move.end_mm};
   for (std::size_t axis = 0; axis < 3; ++axis) {

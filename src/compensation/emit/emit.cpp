@@ -23,7 +23,8 @@ std::vector<MoveEdit> Emitter::run() {
   }
   leave_pending_alone();
   out_.narrowed = narrowed_contours(job_, edits_);
-  out_.other_moves.left = job_.program.moves.size() - edits_.size();
+  out_.other_moves.left = static_cast<std::size_t>(std::ranges::count_if(job_.program.moves, moves_tool));
+  for (const MoveEdit& edit : edits_) out_.other_moves.left -= moves_tool(job_.program.moves[edit.move]);
   if (out_.failure) out_.corrected_moves = 0, out_.other_moves = {};  // nothing is written
   return std::move(edits_);
 }

@@ -181,6 +181,8 @@ void Emitter::put(MoveEdit edit, Extent extent) {
   if (edit.jump) go_through(move, *edit.jump, state_.held);
   for (const Via& via : edit.inserted) go_through(move, via, state_.held);
   state_.held = text_position_after(move, state_.held, edit.end_mm, job_.options.write);
+  edits_.push_back(std::move(edit));
+  if (!moves_tool(move)) return;
   OtherMoves& others = out_.other_moves;
   if (extent == Extent::whole)
     ++out_.corrected_moves;
@@ -188,7 +190,6 @@ void Emitter::put(MoveEdit edit, Extent extent) {
     ++others.grouped;
   else
     ++(extent == Extent::in_part ? others.in_part : others.held);
-  edits_.push_back(std::move(edit));
 }
 
 void Emitter::pass(const Move& move) {

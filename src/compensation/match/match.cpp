@@ -95,7 +95,8 @@ std::optional<Failure> match_move(const Job& job, const Plan& plan, std::size_t 
   if (segment && !original.cycle) add_pieces(job, plan, matched, state.drafts);
   add_holes(job, matched, state.drafts);
   add_position(job, matched, state.skipped, state.drafts);
-  state.changed_without_piece += state.drafts.size() == pieces_before && ends_elsewhere(matched);
+  state.changed_without_piece +=
+      state.drafts.size() == pieces_before && ends_elsewhere(matched) && moves_tool(original);
   state.last_line = matched.last().line;
   found.drop(matched.found.size());
   state.skipped = leaves_doubt(original, state.skipped);
