@@ -187,6 +187,7 @@ TEST_CASE("a cycle with an expression is fixed") {
   CHECK_FALSE(program.moves[1].known_end[0]);
   CHECK(program.moves[2].fixed[2]);
   CHECK_FALSE(program.moves[2].cycle.has_value());
+  CHECK(program.moves[2].makes_hole);
 }
 
 TEST_CASE("after a hole that is not followed, the initial height of its series is unknown") {

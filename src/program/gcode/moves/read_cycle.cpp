@@ -133,12 +133,17 @@ bool is_base_known(const Reading& r, bool is_at_initial) {
   return cycle.initial && (counts_from_initial || is_at_initial);
 }
 
+/// The places of the hole are not known: it counts as a feed move of unknown length.
+void forget_places(Reading& r, Move& move) {
+  move.makes_hole = move.cycle->repeats > 0;
+  move.cycle.reset();
+  forget_initial(r.state);
+}
+
 /// A hole whose heights are not known. It keeps the shift of the block before it.
 void forget_heights(const Block& block, Reading& r, Move& move) {
-  move.cycle.reset();
-  move.makes_hole = true;
+  forget_places(r, move);
   r.state.known[2] = false;
-  forget_initial(r.state);
   note_uncorrected(block, r,
                    "R under G91 is a difference from a height that is not known; program Z before the cycle, "
                    "or G90");
@@ -151,8 +156,7 @@ void fix_hole(Reading& r, Move& move, bool turned) {
     const bool other_plane = r.state.normal != 2 && (axis == 2 || static_cast<int>(axis) == r.state.normal);
     if (depth || other_plane || r.sorted.word(letters_of_axes[axis]) != nullptr) fix_axis(r, move, axis);
   }
-  move.cycle.reset();
-  forget_initial(r.state);
+  forget_places(r, move);
 }
 
 std::string_view why_hole_stays(const Reading& r, bool turned) {
