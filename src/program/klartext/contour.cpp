@@ -25,25 +25,6 @@ void begin_contour(KlartextReading& r) {
   for (; first < moves.size(); ++first) join_contour(moves[first], r.state.groups);
 }
 
-/// The words behind the kind of APPR and DEP. Empty if the kind is polar or unknown, or if a word is not
-/// supported.
-std::optional<std::string> lex_approach(const KlartextBlock& block, KlartextReading& r) {
-  const std::string_view text = r.program.text;
-  KlartextBlock words = block;
-  std::size_t& at = words.parts[0].begin;
-  at += block.head.size();
-  while (at < words.parts[0].end && (text[at] == ' ' || text[at] == '\t')) ++at;
-  constexpr std::array<std::string_view, 4> kinds{"LCT", "LT", "LN", "CT"};
-  for (const std::string_view kind : kinds) {
-    if (squeezed(text.substr(at, kind.size())) != kind) continue;
-    at += kind.size();
-    words.head.clear();
-    if (!read_words(words, r)) return std::nullopt;
-    return std::string(kind);
-  }
-  return std::nullopt;
-}
-
 /// Whether X and Y are there, and X, Y and Z are plain absolute numbers.
 bool has_plain_point(const KlartextReading& r) {
   for (const std::string_view axis : {"X", "Y", "Z"}) {
@@ -124,13 +105,14 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
 }
 
 void read_klartext_approach(const KlartextBlock& block, KlartextReading& r) {
-  const auto kind = lex_approach(block, r);
-  const bool enters = block.head == "APPR", point = kind && has_plain_point(r);
+  const bool known = read_words(block, r);
+  const bool enters = block.head == "APPR", point = known && has_plain_point(r);
   const bool no_point = find_word(r.words, "X") == nullptr && find_word(r.words, "Y") == nullptr &&
                         find_word(r.words, "Z") == nullptr;
+  const bool to_circle_and_line = approach_kind(r.program.text, block) == "LCT";
   const bool contour = find_word(r.words, "RL") != nullptr || find_word(r.words, "RR") != nullptr;
   const bool words_fit = enters ? point && contour && !r.state.contour
-                                : kind && r.state.contour && (*kind == "LCT" ? point : no_point);
+                                : known && r.state.contour && (to_circle_and_line ? point : no_point);
   const bool here = r.state.displacements.empty() && !may_skip_or_repeat(r) && empty(block.block_delete);
   if (!words_fit || !here || !r.state.tool_along_z || !r.state.unit || find_word(r.words, "M") != nullptr)
     return add_unfollowed_approach(block, r);

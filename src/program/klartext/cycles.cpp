@@ -72,6 +72,9 @@ bool counts_from_surface(int cycle) {
   return (cycle >= 200 && cycle <= 209) || cycle == 240 || cycle == 241;
 }
 
+/// BORE MILLING: the cutter moves along the wall of the bore, whose diameter is Q335.
+constexpr int bore_milling = 208;
+
 /// A parameter that is a plain number in mm.
 struct ParameterWord {
   double value_mm;
@@ -117,7 +120,7 @@ std::optional<KlartextSurface> surface_of(const KlartextBlock& block, const Klar
 /// Whether Q206 is the feed of a plunge: not for boring upwards, milling of holes, and tapping with the feed
 /// of the spindle.
 bool plunges(int cycle) {
-  return counts_from_surface(cycle) && cycle != 204 && cycle != 207 && cycle != 208 && cycle != 209;
+  return counts_from_surface(cycle) && cycle != 204 && cycle != 207 && cycle != bore_milling && cycle != 209;
 }
 
 /// Q206 of the block, in mm/min.
@@ -209,6 +212,7 @@ void define_cycle(const KlartextBlock& block, KlartextReading& r) {
   r.state.cycle_is_relative = counts_from_tool(cycle) && r.state.tool_along_z && runs_once;
   r.state.cycle_returns = returns_to_start(cycle);
   r.state.takes_surface = counts_from_surface(cycle) && runs_once;
+  r.state.cycle_mills = cycle == bore_milling;
   r.state.clearance_mm.reset();
   r.state.second_clearance_mm.reset();
   r.state.depth_mm.reset();
@@ -235,6 +239,7 @@ bool take_hole(KlartextReading& r, Move& move) {
   const bool end_is_known = state.clearance_mm && state.second_clearance_mm;
   move.may_split = move.may_jump = false;
   move.makes_hole = move.takes_no_z = true;
+  move.mills_at_end = state.cycle_mills;
   move.motion = Motion::rapid;  // the path to a hole is a rapid, as with the cycles of G-code
   move.feed_mm_min = state.plunging_feed_mm_min;
   if (!end_is_known) move.handling = Handling::held;

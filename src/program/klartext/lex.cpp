@@ -200,6 +200,24 @@ bool is_axis_of_code(const WordScanner& s, std::string_view key, const std::vect
          (behind >= s.end || (klartext_letter(s.text[behind]) && klartext_upper(s.text[behind]) != 'Q'));
 }
 
+/// Whether `word` is a limit of M118: how far the handwheel may move that axis. Limits follow M118 directly.
+bool limits_handwheel(const KlartextWord& word, const std::vector<KlartextWord>& words) {
+  return is_coordinate(word) && !word.incremental && words.back().key == "M" && words.back().value == 118;
+}
+
+bool has_handwheel(const std::vector<KlartextWord>& words) {
+  return std::any_of(words.begin(), words.end(),
+                     [](const KlartextWord& word) { return word.key == "M" && word.value == 118; });
+}
+
+/// A coordinate of an axis that the block has already.
+void refuse_repeated_axis(const WordScanner& s, const KlartextWord& word,
+                          const std::vector<KlartextWord>& words) {
+  if (is_coordinate(word) && find_word(words, word.key) != nullptr)
+    refuse_klartext(s.text, s.file, s.block, word.span.begin,
+                    fmt::format("{} occurs twice in the block", word.key));
+}
+
 bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   if (s.peek() == '(') {  // a comment
     s.at = std::min(s.text.find(')', s.at), s.end - 1) + 1;
@@ -224,6 +242,8 @@ bool take_word(WordScanner& s, std::vector<KlartextWord>& words) {
   word.span.end = s.at;
   const bool polar = word.key.ends_with("PA") || word.key.ends_with("PR");
   if (polar && s.block.head != "CP" && s.block.head != "LP") return false;
+  if (is_coordinate(word) && has_handwheel(words)) return limits_handwheel(word, words);
+  refuse_repeated_axis(s, word, words);
   words.push_back(std::move(word));
   return true;
 }
@@ -299,16 +319,45 @@ std::string_view after_head(std::string_view text, const KlartextBlock& block) {
   return part(text, {block.parts[0].begin + block.head.size(), block.parts[0].end});
 }
 
+std::string_view approach_kind(std::string_view text, const KlartextBlock& block) {
+  constexpr std::array<std::string_view, 4> kinds{"LCT", "LT", "LN", "CT"};
+  const std::string rest = squeezed(after_head(text, block));
+  const auto kind = std::find_if(kinds.begin(), kinds.end(), [&](auto k) { return rest.starts_with(k); });
+  return kind == kinds.end() ? std::string_view() : *kind;
+}
+
 bool lex_klartext_words(std::string_view text, const std::string& file, const KlartextBlock& block,
                         std::vector<KlartextWord>& words) {
   words.clear();
+  const bool approaches = block.head == "APPR" || block.head == "DEP";
+  const std::string_view kind = approaches ? approach_kind(text, block) : std::string_view();
+  if (approaches && kind.empty()) return false;
   for (const Span& line : block.parts) {
     WordScanner s{text, file, block, line.begin, line.end};
-    if (line.begin == block.parts[0].begin) s.at += block.head.size();
+    if (line.begin == block.parts[0].begin) {
+      s.at += block.head.size();
+      s.skip();
+      s.at += kind.size();
+    }
     for (s.skip(); s.at < s.end; s.skip())
       if (!take_word(s, words)) return false;
   }
   return true;
+}
+
+std::size_t find_coordinate(std::string_view text, const KlartextBlock& block) {
+  for (const Span& line : block.parts) {
+    bool quoted = false;
+    for (std::size_t at = line.begin + 1; at + 1 < line.end; ++at) {
+      if (text[at] == '"') quoted = !quoted;
+      const bool axis = std::string_view("XYZ").find(klartext_upper(text[at])) != std::string_view::npos;
+      const char behind = text[at + 1];
+      if (!quoted && axis && klartext_blank(text[at - 1]) &&
+          (klartext_digit(behind) || behind == '+' || behind == '-'))
+        return at;
+    }
+  }
+  return std::string_view::npos;
 }
 
 const KlartextWord* find_word(const std::vector<KlartextWord>& words, std::string_view key) {

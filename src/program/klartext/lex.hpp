@@ -50,10 +50,17 @@ bool continues_behind(std::string_view text, std::size_t newline);
 /// The statement's text after its head: on the first line, or the whole of a later one.
 std::string_view after_head(std::string_view text, const KlartextBlock& block);
 
-/// The words behind the head of a block that moves the tool. False if a word is unknown. Throws `InputError`
-/// for a coordinate without a number and for a number that no control reads.
+/// LT, LN, CT or LCT behind APPR or DEP; empty if the kind is polar or unknown.
+std::string_view approach_kind(std::string_view text, const KlartextBlock& block);
+
+/// The words behind the head of a block that moves the tool, and behind the kind of APPR and DEP, without the
+/// limits of M118. False if a word is unknown. Throws `InputError` for a coordinate without a number, for a
+/// number that no control reads, and for an axis that occurs twice.
 bool lex_klartext_words(std::string_view text, const std::string& file, const KlartextBlock& block,
                         std::vector<KlartextWord>& words);
+
+/// The place of "X+20" behind the head of a block in which the tool does not move; npos without one.
+std::size_t find_coordinate(std::string_view text, const KlartextBlock& block);
 
 /// The word with that key, or nullptr.
 const KlartextWord* find_word(const std::vector<KlartextWord>& words, std::string_view key);

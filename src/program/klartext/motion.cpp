@@ -11,6 +11,7 @@ namespace counterflex {
 namespace {
 
 constexpr std::array<std::string_view, 3> klartext_axes{"X", "Y", "Z"};
+constexpr const char* retracts_by_code = "M140 retracts from the part along the tool";
 
 double mm_per_unit(const KlartextReading& r) {
   return r.state.unit ? mm_per(*r.state.unit) : 1.0;
@@ -124,10 +125,8 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
     return call_relative_cycle(block, r, move);
   }
   r.state.known[2] = false;
-  if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
-    if (move.handling == Handling::held) note_uncorrected(r, block.line, "holes are held");
-    return;
-  }
+  if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move))
+    return note_hole(block, r, move);
   r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();
@@ -158,15 +157,6 @@ void add_machine_position(const KlartextBlock& block, const KlartextCodes& codes
                       .why = "M91 or M92: a position of the machine",
                       .machine_position = true,
                       .feeds = calls || find_word(r.words, "FMAX") == nullptr});
-}
-
-/// The distance of M140 depends on the machine: an inserted word in the next block would move back.
-void apply_retract(const KlartextBlock& block, KlartextReading& r) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (axis == 2 || !r.state.tool_along_z) move_by_machine(r, axis);
-  r.state.run_begin = r.program.moves.size();
-  r.state.contour = r.state.after_contour = false;
-  add_uncorrected(r, {block.line, "M140 retracts from the part along the tool", true});
 }
 
 /// After a block that may be skipped its axes are unknown.
@@ -290,6 +280,15 @@ void move_by_machine(KlartextReading& r, std::size_t axis) {
   r.state.moved_by_machine[axis] = r.moves_read + 1;
 }
 
+/// An inserted word in the next block would move back.
+void retract_klartext(const KlartextBlock& block, KlartextReading& r, const char* why) {
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (axis == 2 || !r.state.tool_along_z) move_by_machine(r, axis);
+  r.state.run_begin = r.program.moves.size();
+  r.state.contour = r.state.after_contour = false;
+  add_uncorrected(r, {block.line, why, true});
+}
+
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
   if (!read_words(block, r)) {
     forget_klartext_speeds(r.state);
@@ -313,7 +312,7 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     r.state.contour = false;
     r.state.after_contour = true;
   }
-  if (codes.retracts) apply_retract(block, r);
+  if (codes.retracts) retract_klartext(block, r, retracts_by_code);
   if (codes.stops_spindle) r.state.spindle_off = true;
   r.ended = r.ended || (codes.ends && !may_not_run(block, r));
 }
@@ -329,7 +328,7 @@ void read_klartext_codes(const KlartextBlock& block, KlartextReading& r) {
   read_klartext_feed(r);
   if (programs_axis(r)) return add_unfollowed_move(block, r, "axes without L are not supported");
   if (found.cycle_call) call_cycle(found, r, [&] { add_cycle_call(block, r); });
-  if (found.retracts) apply_retract(block, r);
+  if (found.retracts) retract_klartext(block, r, retracts_by_code);
   if (found.stops_spindle) r.state.spindle_off = true;
   r.ended = r.ended || (found.ends && !may_not_run(block, r));
 }

@@ -156,12 +156,31 @@ void read_probe(const KlartextBlock& block, KlartextReading& r) {
   if (!sets.empty()) r.state.displacements[displacement_of_probe] = r.last_reason;
 }
 
+/// PLANE SPATIAL SPA+0 SPB+0 SPC+0: the plane without a tilt.
+bool is_plane_of_zeros(std::string_view plane) {
+  constexpr std::string_view spatial = "SPATIAL";
+  if (!plane.starts_with(spatial)) return false;
+  plane.remove_prefix(spatial.size());
+  for (const std::string_view angle : {"SPA", "SPB", "SPC"}) {
+    if (!plane.starts_with(angle)) return false;
+    plane.remove_prefix(angle.size());
+    const std::size_t end = std::min(plane.find_first_not_of("+-.,0"), plane.size());
+    if (plane.substr(0, end).find('0') == std::string_view::npos) return false;
+    plane.remove_prefix(end);
+  }
+  return plane.empty() || !is_digit(plane[0]);
+}
+
+/// MOVE, TURN or STAY behind the angles. Without MOVE only rotary axes turn, and MB retracts before.
 void read_plane(const KlartextBlock& block, KlartextReading& r) {
-  const std::string rest = squeezed(after_head(r.program.text, block));
-  const bool resets = rest.starts_with("RESET");
-  // Without MOVE only rotary axes turn back.
+  std::string rest;
+  for (const Span& line : block.parts) rest += squeezed(part(r.program.text, line));
+  rest.erase(0, block.head.size());
+  const bool resets = rest.starts_with("RESET") || is_plane_of_zeros(rest);
   if (!resets || rest.find("MOVE") != std::string::npos)
     add_unfollowed_move(block, r, "PLANE turns coordinates");
+  else if (rest.find("MB") != std::string::npos)
+    retract_klartext(block, r, "PLANE with MB retracts from the part along the tool");
   if (r.state.displacements.erase(19) > 0)
     r.state.known.fill(false), r.state.run_begin = r.program.moves.size();
   if (!resets) r.state.displacements[19] = "coordinates are tilted";
@@ -170,9 +189,12 @@ void read_plane(const KlartextBlock& block, KlartextReading& r) {
 /// FUNCTION is not followed. That of parallel axes, of turning and of TCPM act until they are reset.
 void read_function(const KlartextBlock& block, KlartextReading& r) {
   constexpr int tcpm = 128, parallel_axes = 1029, turning = 1030;  // numbers of displacements
+  const std::string rest = squeezed(after_head(r.program.text, block));
+  const auto acts = [&](int number) { return r.state.displacements.contains(number); };
+  // Ends what does not act.
+  if ((rest == "RESETTCPM" && !acts(tcpm)) || (rest == "MODEMILL" && !acts(turning))) return;
   forget_klartext_speeds(r.state);
   add_unfollowed_move(block, r, "FUNCTION is not supported");
-  const std::string rest = squeezed(after_head(r.program.text, block));
   if (rest.starts_with("PARAXMODE"))
     set_displacement(r, parallel_axes, !rest.ends_with("OFF"), "FUNCTION PARAXMODE selects other axes");
   if (rest.starts_with("MODE"))
@@ -253,6 +275,17 @@ constexpr std::array statement_readers{
     KnownStatement{"ERROR", read_nothing},
 };
 
+/// Coordinates in a block that does not move: the control refuses it.
+void refuse_coordinate(const KlartextBlock& block, const KlartextReading& r) {
+  constexpr std::array<std::string_view, 5> heads{"RND", "CHF", "STOP", "LBL", "TOOL"};
+  if (std::find(heads.begin(), heads.end(), block.head) == heads.end()) return;
+  const std::size_t at = find_coordinate(r.program.text, block);
+  if (at == std::string_view::npos) return;
+  refuse_klartext(r.program.text, r.program.file, block, at,
+                  fmt::format("{} is not allowed in a block with {}: write it in a block of its own with L",
+                              upper(r.program.text[at]), block.head));
+}
+
 void refuse_conflict_marker(const KlartextBlock& block, const KlartextReading& r) {
   const std::string_view line = part(r.program.text, block.parts[0]);
   for (const std::string_view marker : {"<<<<<<<", "=======", ">>>>>>>", "|||||||"})
@@ -292,6 +325,7 @@ void mark_definition_changed(const KlartextBlock& block, KlartextReading& r) {
 void read_known_or_not(const KlartextBlock& block, KlartextReading& r) {
   const auto known = std::find_if(statement_readers.begin(), statement_readers.end(),
                                   [&](const KnownStatement& s) { return s.head == block.head; });
+  refuse_coordinate(block, r);
   if (known != statement_readers.end()) return known->read(block, r);
   refuse_conflict_marker(block, r);
   forget_klartext_speeds(r.state);
@@ -378,6 +412,11 @@ void add_cycle_call(const KlartextBlock& block, KlartextReading& r) {
   add_move(r, move);
   r.state.run_begin = r.program.moves.size();
   if (move.fixed[2]) note_uncorrected(r, block.line, "cycles are not corrected");
+  if (!move.fixed[2]) note_hole(block, r, move);
+}
+
+void note_hole(const KlartextBlock& block, KlartextReading& r, const Move& move) {
+  if (move.mills_at_end) return note_uncorrected(r, block.line, std::string(milled_as_a_whole));
   if (move.handling == Handling::held) note_uncorrected(r, block.line, "holes are held");
 }
 

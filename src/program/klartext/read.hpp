@@ -68,6 +68,7 @@ struct KlartextState {
   bool cycle_is_relative = false;          ///< all its heights are relative to the tool's position
   bool cycle_returns = false;              ///< such a cycle returns to its start
   bool takes_surface = false;              ///< all its heights are relative to Q203
+  bool cycle_mills = false;                ///< such a cycle mills beside the point at which it is called
   bool calls_each = false;                 ///< M89: every move ends with the cycle, until M99
   /// Q200 and Q204 of that cycle, above the surface.
   std::optional<double> clearance_mm, second_clearance_mm;
@@ -205,6 +206,12 @@ void add_unfollowed_move(const KlartextBlock& block, KlartextReading& reading, s
 /// known, the move is corrected in X and Y by its own end; otherwise it is held. If the result is false, the
 /// surface is lost for later holes, too.
 bool take_hole(KlartextReading& reading, Move& move);
+
+/// What is not corrected of a hole that was taken.
+void note_hole(const KlartextBlock& block, KlartextReading& reading, const Move& move);
+
+/// The machine retracts along the tool by a distance that it has itself, as under M140 and PLANE with MB.
+void retract_klartext(const KlartextBlock& block, KlartextReading& reading, const char* why);
 
 /// The machine moves the axis by itself: its position is unknown.
 void move_by_machine(KlartextReading& reading, std::size_t axis);

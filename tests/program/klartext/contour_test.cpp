@@ -82,3 +82,16 @@ TEST_CASE("klartext: the reason for APPR and DEP that are not followed names the
     CHECK(program.left_alone.at(0).why.find("needs X and Y as plain numbers") != std::string::npos);
   }
 }
+
+TEST_CASE("klartext: each kind of APPR and DEP is written with its corrected point") {
+  for (const char* kind : {"CT X+10 Y+20 CCA180 R+10", "CT X+10 Y+20 R+10 CCA180", "LCT X+10 Y+20 R10",
+                           "LT X+10 Y+20 LEN10", "LN X+10 Y+20 LEN10"}) {
+    CAPTURE(kind);
+    const Program program =
+        read(klartext({"L X-20 Y-20 Z+10 R0 FMAX", "L Z-2 F500", fmt::format("APPR {} RR F100", kind),
+                       "L X+40", "DEP CT CCA90 R+5", "L Z+50 FMAX"}));
+    const std::string text = klartext_shifted(program);
+    CHECK(text.find("X+10.5 Y+19.75") != std::string::npos);
+    CHECK(diagnostic_of([&] { read(text); }) == "none");
+  }
+}

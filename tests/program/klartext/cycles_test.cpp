@@ -226,3 +226,16 @@ TEST_CASE("klartext: a cycle that may act by its definition makes the position u
     CHECK(behind(definition) == std::array{true, true, true});
   }
 }
+
+TEST_CASE("klartext: bore milling moves beside the point at which it is called") {
+  const auto hole = [](const std::string& cycle) {
+    return read(klartext({"TOOL CALL 1 Z S1000", "L X+0 Y+0 Z+50 FMAX",
+                          "CYCL DEF " + cycle + " ~\n Q200=2 ~\n Q201=-15 ~\n Q203=+0 ~\n Q204=50",
+                          "L X+20 FMAX M99"}));
+  };
+  const Program milled = hole("208 BORE MILLING"), drilled = hole("200 DRILLING");
+  CHECK(milled.moves.back().mills_at_end);
+  CHECK(milled.left_alone.back().why.starts_with("the cycle is shifted as a whole"));
+  CHECK_FALSE(drilled.moves.back().mills_at_end);
+  CHECK(klartext_shifted(milled).find("L X+20.5") != std::string::npos);
+}

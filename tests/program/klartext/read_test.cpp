@@ -207,3 +207,57 @@ TEST_CASE("klartext: axes without a number behind M94 and M138 do not move") {
   }
   CHECK(klartext_refusal({"L C"}).find("C has no number") != std::string::npos);
 }
+
+TEST_CASE("klartext: axes behind M118 are limits of the handwheel and no coordinates") {
+  const Program program = read(klartext(
+      {"L X+0 Y+0 Z+0 FMAX", "L X+60 F500 M118 X1 Y1 Z2", "L Y+30 M118 ZQ5", "M118 X1 Y1", "L X+50"}));
+  REQUIRE(program.moves.size() == 4);
+  CHECK(program.moves[1].end_mm == Vector3(60, 0, 0));
+  CHECK(program.moves[2].end_mm == Vector3(60, 30, 0));
+  CHECK(all_known(program.moves[3].known_end));
+  // Words of the block are inserted before M118.
+  const MoveEdit edit{.move = 1, .end_mm = {60.5, 0.25, 0.125}};
+  CHECK(rewrite(program, {edit}, {}).text.find("L X+60.5 Y+0.250 Z+0.125 F500 M118 X1 Y1 Z2\n") !=
+        std::string::npos);
+  CHECK(read(klartext({"L X+0 Y+0 Z+0 FMAX", "L M118 X1 F500 X+20"})).moves.at(1).fixed[0]);
+}
+
+TEST_CASE("klartext: an axis twice, and coordinates in blocks that do not move, are refused") {
+  CHECK(klartext_refusal({"L X+60 Y+40 Y+7"}) == "p.ngc:2:15: error: Y occurs twice in the block");
+  CHECK(klartext_refusal({"L X+60 IX+1"}) == "p.ngc:2:10: error: X occurs twice in the block");
+  CHECK(klartext_refusal({"RND R5 X+20"}) ==
+        "p.ngc:2:10: error: X is not allowed in a block with RND: write it in a block of its own with L");
+  for (const char* block : {"CHF 5 Y+20", "STOP X+20", "TOOL CALL S2000 X+20", "LBL 3 X+20"}) {
+    CAPTURE(block);
+    CHECK(klartext_refusal({block}).find(" is not allowed in a block with ") != std::string::npos);
+  }
+  for (const char* block : {"RND R5 F200", "STOP M6", "TOOL CALL 5 Z S2000 F500 DL+0.1", "LBL \"X 20\"",
+                            "TOOL CALL \"MILL X5\" Z S2000", "TOOL DEF 7", "LBL 3 ; X+20"}) {
+    CAPTURE(block);
+    CHECK(klartext_refusal({block}) == "none");
+  }
+}
+
+TEST_CASE("klartext: PLANE with MB retracts along the tool, PLANE RESET and a plane of zeros turn nothing") {
+  const auto behind = [](const std::string& plane) {
+    return read(klartext({"L X+0 Y+0 Z+0 FMAX", plane, "L X+80 F500"})).moves.back();
+  };
+  using Known = std::array<bool, 3>;
+  CHECK(behind("PLANE RESET TURN MB50 FMAX").known_start == Known{true, true, false});
+  CHECK(behind("PLANE RESET STAY").known_start == Known{true, true, true});
+  CHECK(behind("PLANE SPATIAL SPA+0 SPB+0 SPC+0 STAY").known_start == Known{true, true, true});
+  CHECK(behind("PLANE SPATIAL SPA+0 SPB-0.000 SPC+0 TURN MBMAX FMAX").known_start ==
+        Known{true, true, false});
+  for (const char* tilt : {"PLANE SPATIAL SPA+0 SPB+0.5 SPC+0 STAY", "PLANE SPATIAL SPA+0 SPB+Q1 SPC+0 STAY",
+                           "PLANE SPATIAL SPA+0 SPB+0 STAY", "PLANE SPATIAL SPA+0 SPB+0 SPC+05 STAY"}) {
+    CAPTURE(tilt);
+    CHECK(behind(tilt).fixed[0]);
+  }
+}
+
+TEST_CASE("klartext: the end of a FUNCTION that does not act moves nothing") {
+  for (const char* function : {"FUNCTION RESET TCPM", "FUNCTION MODE MILL"})
+    CHECK(read(klartext({function, "L X+0 Y+0 Z+0 FMAX"})).moves.size() == 1);
+  for (const char* function : {"FUNCTION TCPM F TCP AXIS POS", "FUNCTION MODE MILL \"KIN\""})
+    CHECK(read(klartext({function, "L X+0 Y+0 Z+0 FMAX"})).moves.size() == 2);
+}
