@@ -234,7 +234,9 @@ void enter_frame(Reading& r, const std::string& work_offset) {
   r.state.frame = index_of_frame(r.program, now);
   if (before == now) return;
   if (before.work_offset != now.work_offset) return r.state.known.fill(false);
-  r.state.position_mm = position_in(now, before, r.state.position_mm);
+  const Vector3 position_mm = position_in(now, before, r.state.position_mm);
+  if (r.dialect.sinumerik_words) r.state.untravelled_mm += position_mm - r.state.position_mm;
+  r.state.position_mm = position_mm;
   if (before.turn_rad != now.turn_rad) r.state.known[0] = r.state.known[1] = false;
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (before.set_mm[axis] != now.set_mm[axis]) r.state.known[axis] = false;

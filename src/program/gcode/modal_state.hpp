@@ -103,6 +103,8 @@ struct ModalState {
   CycleState cycle;
   std::size_t frame = 0;  ///< index into Program::frames
   FrameShifts shifts{};   ///< shifts of that frame
+  /// Sinumerik: the change of each coordinate by frames since the axis moved last.
+  Vector3 untravelled_mm = Vector3::Zero();
   bool exact_stop = false;
   std::optional<double> tool_length;     ///< number of H; 0: off; empty: unknown
   std::optional<double> tool_length_mm;  ///< empty: unknown

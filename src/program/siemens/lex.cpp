@@ -45,6 +45,13 @@ void lex_frame(Scanner& s) {
   }
 }
 
+/// The list in brackets, if there is one. Words behind it are not read.
+void skip_list(Scanner& s) {
+  if (s.peek() == '(') skip_siemens_value(s);
+  s.skip_blanks();
+  if (s.at < s.end && s.peek() != ';') s.block.statement = Statement::not_read;
+}
+
 void state(Scanner& s, Statement statement) {
   s.block.statement = statement;
   const std::size_t begin = s.at;
@@ -52,13 +59,14 @@ void state(Scanner& s, Statement statement) {
   s.skip_blanks();
   const bool no_arguments = s.text.substr(s.at, s.end - s.at).starts_with("()");
   s.block.statement_is_bare = no_arguments || s.at == s.end || s.peek() == ';';
+  const bool has_list = s.peek() == '(';
+  if (statement == Statement::curve || (statement == Statement::smoothed && !has_list)) return;
+  if (statement == Statement::smoothed || statement == Statement::transform_off) skip_list(s);
   s.at = begin;
-  if (statement == Statement::curve) {
-    s.at += siemens_name_at(s).size();
-    return;
-  }
-  if (statement >= Statement::shift && statement <= Statement::added_turn) return lex_frame(s);
-  skip_siemens_rest(s);
+  if (statement >= Statement::shift && statement <= Statement::added_turn)
+    lex_frame(s);
+  else
+    skip_siemens_rest(s);
   s.block.statement_text = {begin, s.at};
 }
 

@@ -221,7 +221,37 @@ bool has_words_of_its_own(const Block& block, const Reading&) {
   return std::none_of(block.words.begin(), block.words.end(), is_length_word);
 }
 
+namespace {
+
+/// The displacement that a statement begins, or may begin; 0 without one.
+std::uint16_t displacement_of(Statement statement) {
+  if (statement >= Statement::shift && statement <= Statement::added_frame) return framed;
+  if (statement == Statement::modal_call) return modal_macro;
+  if (statement == Statement::tilt) return tilted;
+  return statement == Statement::transformed ? tool_point : 0;
+}
+
+/// Whether axis words are before a statement that the control reads in a block of its own only.
+bool has_words_before_statement(const Block& block) {
+  const Statement what = block.statement;
+  const bool alone = displacement_of(what) != 0 || what == Statement::cycle ||
+                     what == Statement::transform_off || what == Statement::end;
+  return alone && std::any_of(block.words.begin(), block.words.end(), [&](const Word& word) {
+           return is_length_word(word) && word.span.begin < block.statement_text.begin;
+         });
+}
+
+/// Whether the words move, and whether the statement acts, is not known.
+void read_words_before_statement(const Block& block, Reading& r) {
+  r.sorted = {};
+  read_anything(block, r, "axis words are before a statement that needs a block of its own");
+  if (const std::uint16_t bit = displacement_of(block.statement)) displace_by_statement(block, r, bit);
+}
+
+}  // namespace
+
 void end_statement(const Block& block, Reading& r) {
+  if (has_words_before_statement(block)) return read_words_before_statement(block, r);
   // A block that is not read makes the position unknown by itself.
   if (block.assigns_by_name && block.statement != Statement::not_read) apply_assigned_words(block, r);
   switch (block.statement) {

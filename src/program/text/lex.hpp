@@ -77,7 +77,7 @@ struct Block {
   bool assigns_by_name = false;      ///< "_DEPTH=5", "MEAS=1": a variable or an unknown word
   Statement statement = Statement::none;
   bool statement_is_bare = false;  ///< nothing is behind its name
-  Span statement_text;             ///< of a call, from its name to the comment
+  Span statement_text;             ///< from its name to the comment
   bool has_own_mode = false;       ///< a word has a mode of its own
   Span flow_name;                  ///< of an O-word: "100" or "<name>"
   Span flow_keyword;               ///< of a line of flow: "sub", "GOTO"; empty for other lines

@@ -545,3 +545,55 @@ TEST_CASE("siemens: a state that one path through a condition leaves is unknown 
   CHECK(program.moves.back().tool == 0);
   CHECK(why_last("IF R1==1\nG58 X5\nELSE\nX1\nENDIF\n" + move).starts_with("G58 or G59 shifts"));
 }
+
+TEST_CASE("siemens: axis words beside a statement that needs its own block make the position unknown") {
+  const std::string start = std::string(siemens_start) + "G1 Z-2 F100\n";
+  for (const char* line :
+       {"X10 Y60 CYCLE81(10,0,2,-5)", "X10 Y60 MCALL CYCLE81(10,0,2,-5)", "X20 Y7 MCALL",
+        "CYCLE832(0.01,1,1) X20 Y60", "TRAFOOF X20 Y7", "X20 Y7 TRAFOOF", "X5 TRANS Y10", "X20 Y7 ROT",
+        "X20 Y7 CYCLE800()", "X20 Y7 TRAORI", "X20 POCKET3(50,0,2,-10,60,20,5,50,40,0,4,0.1,0.1,500,200)"}) {
+    CAPTURE(line);
+    const Program program = siemens(start + line + "\nX30\n");
+    REQUIRE(program.moves.size() == 4);
+    CHECK(program.moves[2].fixed == std::array{true, true, true});
+    CHECK_FALSE(all_known(program.moves[3].known_end));
+  }
+  // A modal call may act from here on, and a frame may be active.
+  for (const char* line : {"X10 Y60 MCALL CYCLE81(10,0,2,-5)", "X5 TRANS Y10"})
+    CHECK(siemens(start + line + "\nG90 G17 G71 G1 X0 Y0 Z0 F100\nX30\n").moves.back().fixed[0]);
+  CHECK(diagnostic_of([&] { siemens(start + "G4 F1 X20 Y7\n"); }) ==
+        "p.mpf:5:1: error: axis words are not allowed in a block with a dwell");
+}
+
+TEST_CASE("siemens: words beside a path mode or CYCLE832 are followed") {
+  for (const char* line :
+       {"COMPCAD X20 Y7", "COMPCAD G1 X20 Y7", "X20 Y7 COMPCAD", "X20 Y7 CYCLE832(0.01,1,1)"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\n");
+    CHECK(program.moves.back().end_mm == Vector3(20, 7, 50));
+    CHECK(all_known(program.moves.back().known_end));
+    CHECK(program.remarks.back().what.find("smooths the path") != std::string::npos);
+  }
+}
+
+TEST_CASE("siemens: the first difference of an axis behind a change of the frame has an unknown end") {
+  const auto last = [](const std::string& lines) {
+    return siemens(std::string(siemens_start) + "G54 X0 Y0 Z50\n" + lines);
+  };
+  const Program program = last("TRANS Y100\nG91 X40 Y5\nX20\n");
+  const Move& first = program.moves[program.moves.size() - 2];
+  CHECK(first.fixed == std::array{false, true, false});
+  CHECK(program.moves.back().known_end == std::array{true, false, true});
+  CHECK(program.left_alone.back().why.find("SD42440") != std::string::npos);
+  for (const std::string lines : {"TRANS Y100\nG91 X40\n", "TRANS Y100\nY5\nG91 Y5\n",
+                                  "TRANS Y100\nTRANS\nG91 Y5\n", "TRANS Y100\nX5 Y=AC(5)\nY=IC(5)\n"}) {
+    CAPTURE(lines);
+    CHECK(all_known(last(lines).moves.back().known_end));
+  }
+  for (const char* lines :
+       {"TRANS Y100\nY=IC(5)\n", "TRANS Z1\nG91\nZ5\n", "TRANS X5\nATRANS Y5\nG91 X5\n",
+        "ROT RPL=90\nG91 X5\n", "TRANS X5\nX=IC(5) Y2\n", "ATRANS X5\nG1 G91 X1 F100\n"}) {
+    CAPTURE(lines);
+    CHECK_FALSE(all_known(last(lines).moves.back().known_end));
+  }
+}

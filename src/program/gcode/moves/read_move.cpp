@@ -158,12 +158,25 @@ void place_macro_word(Reading& r, Move& move, std::size_t axis, const Word& word
   coordinate(r.state.position_mm, axis) = length_mm(r, word);
 }
 
+bool is_difference(const Reading& r, std::size_t axis) {
+  const bool alone = (r.relative_axes >> axis & 1) != 0;
+  return alone || (r.relative() && (r.state.unknown_modes & unknown_distance) == 0);
+}
+
+/// Whether the word is the first one of its axis behind a change of the frame of a Sinumerik, and a
+/// difference: a setting of the control decides whether the axis also travels the change.
+bool may_travel_frame(const Reading& r, std::size_t axis) {
+  constexpr double none_mm = 1e-9;
+  return r.state.known[axis] && is_difference(r, axis) &&
+         std::abs(r.state.untravelled_mm[static_cast<Eigen::Index>(axis)]) > none_mm;
+}
+
 void place_word(Reading& r, Move& move, std::size_t axis, const Word& word, bool followed) {
   ModalState& state = r.state;
-  const bool alone = (r.relative_axes >> axis & 1) != 0;
-  const bool relative = alone || (r.relative() && (state.unknown_modes & unknown_distance) == 0);
+  const bool relative = is_difference(r, axis);
   if (!word.literal || !followed) return place_unknown(r, move, axis);
-  if (relative && !state.known[axis]) return fix_axis(r, move, axis);
+  if (relative && (!state.known[axis] || may_travel_frame(r, axis))) return fix_axis(r, move, axis);
+  coordinate(state.untravelled_mm, axis) = 0;
   move.words[axis] = AxisWord{word.number, word.decimals};
   const double value = length_mm(r, word);
   coordinate(state.position_mm, axis) = relative ? coordinate(state.position_mm, axis) + value : value;
@@ -354,10 +367,11 @@ void place_words(const Block& block, Reading& r, Move& move) {
   const std::string_view why = why_not_followed(r);
   if (may_turn_tool(r)) place_angles(block, r, move, why.empty());
   const bool macro = only_calls_macro(r);
-  bool all_plain = true;
+  bool all_plain = true, frame = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Word* word = r.sorted.word(letters_of_axes[axis]);
     if (word == nullptr) continue;
+    frame = frame || may_travel_frame(r, axis);
     if (macro)
       place_macro_word(r, move, axis, *word);
     else
@@ -374,7 +388,12 @@ void place_words(const Block& block, Reading& r, Move& move) {
             ? "a position is a variable or an expression whose value is not known from the text"
             : "a position is a variable or an expression (--evaluate works out constants)");
   if (any_axis(move.fixed))
-    return note_uncorrected(block, r, "a relative position starts from an unknown position");
+    return note_uncorrected(block, r,
+                            frame
+                                ? "the first difference (G91, IC) of an axis behind a change of the frame: "
+                                  "SD42440 $SC_FRAME_OFFSET_INCR_PROG decides whether the axis also travels "
+                                  "the change; program the axis under G90 before"
+                                : "a relative position starts from an unknown position");
   if (!r.angle || place_by_angle(r, move)) return;
   for (std::size_t axis = 0; axis < 2; ++axis) fix_axis(r, move, axis);
   note_uncorrected(block, r, "ANG= needs exactly one of X and Y, in a line under G17");

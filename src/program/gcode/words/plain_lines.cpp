@@ -107,7 +107,7 @@ bool takes_plain_lines(const Reading& r) {
   const ModalState& state = r.state;
   const bool moves = is_straight(state.motion) || is_arc(state.motion);
   const bool followed = state.unit && !state.turns_tool && state.unknown_modes == 0 && state.displaced == 0 &&
-                        !r.in_body() && !state.entering_data && !r.called;
+                        !r.in_body() && !state.entering_data && !r.called && state.untravelled_mm.isZero(0);
   const bool alone = state.contour == Contour::none && !r.after_corner;
   const bool in_place = r.program.expansion.lines.empty() && r.program.expansion.unused.empty();
   const bool increments =
