@@ -113,6 +113,63 @@ double height_below(std::string_view text, const ArgumentList& call, double refe
                          : std::numeric_limits<double>::quiet_NaN();
 }
 
+/// Indices of the arguments that newer controls append to a list: the drilling axis, the selection of the
+/// depth
+/// (_GMODE, then _DMODE for the plane and _AMODE for absolute heights or differences).
+struct AppendedArguments {
+  std::string_view name;
+  std::size_t axis, selections;
+};
+constexpr std::size_t without_axis = 0;
+constexpr auto appended_arguments = std::to_array<AppendedArguments>({{"CYCLE81", without_axis, 6},
+                                                                      {"CYCLE82", without_axis, 6},
+                                                                      {"CYCLE83", 12, 17},
+                                                                      {"CYCLE84", 12, 21},
+                                                                      {"CYCLE85", without_axis, 8},
+                                                                      {"CYCLE86", without_axis, 11},
+                                                                      {"CYCLE87", without_axis, 6},
+                                                                      {"CYCLE88", without_axis, 7},
+                                                                      {"CYCLE89", without_axis, 6},
+                                                                      {"CYCLE840", 11, 17}});
+
+/// Whether the argument at `place` is left out or one of `values`.
+bool is_absent_or(std::string_view text, const ArgumentList& call, std::size_t place,
+                  std::initializer_list<double> values) {
+  if (place >= call.arguments.size() || empty(call.arguments[place])) return true;
+  const auto argument = number_at(text, call, place);
+  return argument && std::ranges::find(values, argument->value) != values.end();
+}
+
+/// Whether _AMODE takes each height as its place in the list does: 0 for both, 1 for DPR, 2 for DP, and for
+/// CYCLE83 the same of the first depth in its tens.
+bool agrees_with_heights(std::string_view text, const ArgumentList& call, std::size_t place) {
+  if (is_absent_or(text, call, place, {0})) return true;
+  const auto mode = number_at(text, call, place);
+  if (!mode || mode->value < 0 || mode->value != std::floor(mode->value)) return false;
+  const auto fits = [&](double digit, std::size_t absolute) {
+    const bool has_absolute = !is_absent_or(text, call, absolute, {});
+    const bool has_relative = !is_absent_or(text, call, absolute + 1, {0});
+    return digit == 0 || (digit == 1 && !has_absolute && has_relative) ||
+           (digit == 2 && has_absolute && !has_relative);
+  };
+  const double units = std::fmod(mode->value, 10), tens = std::fmod(std::floor(mode->value / 10), 10);
+  return fits(units, final_depth) && (!is_word(call.name, "CYCLE83") || fits(tens, first_depth));
+}
+
+/// Whether the arguments that newer controls append leave the axis and the heights as the others give them:
+/// Siemens, SINUMERIK 840D sl Programming Manual Job Planning, "Drilling, centering - CYCLE81".
+bool has_plain_appendix(std::string_view text, const ArgumentList& call) {
+  const auto known =
+      std::find_if(appended_arguments.begin(), appended_arguments.end(),
+                   [&](const AppendedArguments& cycle) { return is_word(call.name, cycle.name); });
+  const std::size_t selections = known->selections;
+  if (known->axis != without_axis && !is_absent_or(text, call, known->axis, {0, 3})) return false;
+  for (std::size_t place = selections + 3; place < call.arguments.size(); ++place)
+    if (!is_absent_or(text, call, place, {0})) return false;
+  return is_absent_or(text, call, selections, {0}) && is_absent_or(text, call, selections + 1, {0, 1}) &&
+         agrees_with_heights(text, call, selections + 2);
+}
+
 /// Fills `cycle` from the arguments; false if a height is not a plain number.
 bool take_heights(std::string_view text, const ArgumentList& call, CalledCycle& cycle) {
   const bool pecks = is_word(call.name, "CYCLE83");
@@ -141,7 +198,8 @@ bool is_drilling(std::string_view name) {
 std::optional<CalledCycle> drilling_at(std::string_view text, Span span) {
   const auto call = call_at(text, span.begin, span.end);
   CalledCycle cycle;
-  if (!call || !is_drilling(call->name) || !take_heights(text, *call, cycle)) return std::nullopt;
+  if (!call || !is_drilling(call->name) || !has_plain_appendix(text, *call)) return std::nullopt;
+  if (!take_heights(text, *call, cycle)) return std::nullopt;
   return cycle;
 }
 
@@ -180,6 +238,7 @@ void make_hole(const CalledCycle& cycle, std::string_view statement, Reading& r,
   if (!cycle.modal.empty())  // the number is not in this block, so it has no position here
     move.words[2] = AxisWord{{move.block.begin, move.block.begin + 1}, cycle.heights[0]->decimals};
   r.state.position_mm.z() = cycle.heights_mm[0];
+  r.state.untravelled_mm.z() = 0;
   r.state.known[2] = true;
 }
 

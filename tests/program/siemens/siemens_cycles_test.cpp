@@ -75,6 +75,26 @@ TEST_CASE("siemens: the bottom of a hole is DP, or DPR below the reference plane
   CHECK(std::isnan(bottom_of("CYCLE81(50,0,2,,R1)")));
 }
 
+TEST_CASE("siemens: arguments that newer controls append must leave axis and heights as they are") {
+  for (const char* call :
+       {"CYCLE81(50,0,2,-20,,0,0,1,12)", "CYCLE81(50,0,2,,20,0,0,1,11)", "CYCLE82(50,0,2,-20,,0.6,0,0,0)",
+        "CYCLE83(50,0,2,-30,,,5,90,0.6,0.6,90,0,0,5,1.4,0.6,1.6,0,1,12211112)",
+        "CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0,3)", "CYCLE86(50,0,2,-20,,0.5,3,.2,.2,,45,0,1,12)",
+        "CYCLE84(50,0,2,,15,0.5,5,,1.25,0,300,300,0,1,0,0,5,1.4,,,,0,1,11)"}) {
+    CAPTURE(call);
+    CHECK_FALSE(is_fixed(std::string(call) + "\n"));
+  }
+  for (const char* call :
+       {"CYCLE81(50,0,2,6,,0,10,1,11)", "CYCLE81(50,0,2,-20,,0,1)", "CYCLE81(50,0,2,-20,,0,0,2)",
+        "CYCLE81(50,0,2,-20,,0,0,1,11)", "CYCLE82(50,0,2,-20,,0,R1)", "CYCLE82(50,0,2,-20,,0,0,1,2,1)",
+        "CYCLE82(50,0,2,,20,0,0,1,12)", "CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0,1)",
+        "CYCLE83(50,0,2,-30,,-5,,2,0,0.5,1,0,0,0,0,0,0,0,1,12)", "CYCLE840(50,0,2,-20,,0,4,3,1,6,,1)"}) {
+    CAPTURE(call);
+    CHECK(is_fixed(std::string(call) + "\n"));
+    CHECK(drilled(std::string("MCALL ") + call + "\nX20 Y10\n").moves.back().fixed[2]);
+  }
+}
+
 TEST_CASE("siemens: MCALL is written again if the heights of a hole differ from those in the text") {
   CHECK(shifted_lines("MCALL CYCLE81(50,0,2,-20) ; all\nX20 Y10\nX30\nMCALL\nG0 Z99\n") ==
         "MCALL CYCLE81(50,0,2,-20) ; all\nMCALL CYCLE81(50.125,0.125,2,-19.875)\nX20.5 "
