@@ -300,7 +300,8 @@ void add_common_shifts(const Machine& machine, const Model& model, const StartTa
                        std::vector<WorkFrame>& frames) {
   if (machine.work_is_machine_frame) return;
   std::map<std::string, std::optional<Vector3>> shifts;  // by offset, for all its frames
-  for (std::size_t i = 0; i < frames.size(); ++i) {
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
+    if (program.frame_lines[i] == 0) continue;
     const ProgramFrame& in_program = program.frames[i];
     const auto offset = machine.work.find(frames[i].name);
     if (offset != machine.work.end() && offset->second.datum.stated()) continue;
