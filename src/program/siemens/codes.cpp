@@ -89,6 +89,7 @@ constexpr std::array siemens_codes{
     GCode{6010, Action::state},
     GCode{6020, Action::state},
     GCode{6030, Action::state},
+    GCode{6210, Action::state},
     GCode{6410, Action::blend, CodeGroup::path},
     GCode{6420, Action::blend, CodeGroup::path},
     GCode{6430, Action::blend, CodeGroup::path},

@@ -1,5 +1,7 @@
 #include "program/siemens/lex.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -221,7 +223,16 @@ bool equals_follows(const Scanner& s, std::size_t behind) {
 
 void lex_letter(Scanner& s) {
   const char letter = upper(s.peek());
-  if (!equals_follows(s, 1)) return lex_word(s);
+  if (!equals_follows(s, 1)) {
+    const std::size_t begin = s.at;
+    lex_word(s);
+    if (letter == 'R')
+      s.refuse_at(begin,
+                  fmt::format("{0} is an R parameter without a value: the radius of an arc is CR=, and "
+                              "the parameter is set by {0}=",
+                              s.text.substr(begin, s.at - begin)));
+    return;
+  }
   const std::size_t words = s.block.words.size();
   read_named_word(s, letter, 1);
   Word& word = s.block.words[words];

@@ -62,6 +62,8 @@ constexpr std::array harmless_names{
     "CPRECOF",   "WAITM",    "WAITMC",    "WAITE",       "WAITS",     "SETM",     "CLEARM",     "SETAL",
     "STARTFIFO", "STOPFIFO", "SPOSA",     "SOFTA",       "BRISKA",    "DRIVEA",   "DELAYFSTON", "DELAYFSTOF",
     "FINEA",     "COARSEA",  "IPOENDA",   "IPOBRKA",     "ACCLIMA",   "VELOLIMA", "JERKLIMA",   "SCPARA",
+    "DIAMOF",    "TOROTOF",  "PAROTOF",   "CDON",        "CDOF",      "CDOF2",    "OSOF",       "OSC",
+    "OSS",       "OSSE",     "OSD",       "OST",
 };
 
 constexpr std::array tool_offset_names{"TOFF", "TOFFL", "TOFFR", "TOFFLR", "TCARR", "DL"};

@@ -36,6 +36,17 @@ bool may_have_names(std::string_view line) {
   return false;
 }
 
+/// REPEAT or REPEATB with labels behind it. "REPEAT_LAB:" is a label.
+bool repeats_part(const std::string& words) {
+  constexpr std::string_view repeat = "REPEAT";
+  const std::size_t at = words.find(repeat);
+  if (at == std::string::npos || (at > 0 && is_identifier_character(words[at - 1]))) return false;
+  std::size_t behind = at + repeat.size();
+  if (behind < words.size() && words[behind] == 'B') ++behind;
+  if (behind < words.size() && is_identifier_character(words[behind])) return false;
+  return words.find_first_not_of(" \t\r", behind) != std::string::npos;
+}
+
 }  // namespace
 
 bool is_siemens(std::string_view text) {
@@ -48,7 +59,7 @@ bool is_siemens(std::string_view text) {
       const std::string words = statements_of(line);
       for (const std::string_view only :
            {"CR=", "MSG(", "SUPA", "STOPRE", "MCALL", "CYCLE8", "GOTOF", "GOTOB", "TRAORI", "WORKPIECE(",
-            "=AC(", "=IC(", "G500 ", "COMPCAD"})
+            "=AC(", "=IC(", "G500 ", "COMPCAD", "T=\"", "TRANS "})
         if (words.find(only) != std::string::npos) return true;
     }
     text.remove_prefix(std::min(end + 1, text.size()));
@@ -63,9 +74,7 @@ bool siemens_jumps(std::string_view text) {
     if (!may_have_names(line)) continue;
     const std::string words = statements_of(line);
     if (words.find("GOTO") != std::string::npos) return true;
-    const std::size_t repeat = words.find("REPEAT");
-    if (repeat != std::string::npos && words.find_first_not_of(" \t\r", repeat + 6) != std::string::npos)
-      return true;
+    if (repeats_part(words)) return true;
   }
   return false;
 }

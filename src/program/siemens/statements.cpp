@@ -177,6 +177,48 @@ bool measures_offset(const Block& block, const Reading& r) {
   return is_one_of(part(r.program.text, block.statement_text).substr(0, cycles[0].size()), cycles);
 }
 
+/// The arguments of the block's call, without blanks.
+std::vector<std::string_view> arguments_of(const Block& block, const Reading& r) {
+  std::string_view list = part(r.program.text, block.statement_text);
+  list.remove_prefix(std::min(list.find('('), list.size() - 1) + 1);
+  list = list.substr(0, list.rfind(')'));
+  std::vector<std::string_view> arguments;
+  bool quoted = false;
+  std::size_t begin = 0;
+  for (std::size_t at = 0; at <= list.size(); ++at) {
+    if (at < list.size() && list[at] == '"') quoted = !quoted;
+    if (at < list.size() && (quoted || list[at] != ',')) continue;
+    arguments.push_back(trimmed_text(list.substr(begin, at - begin)));
+    begin = at + 1;
+  }
+  return arguments;
+}
+
+bool is_zero_or_left_out(std::string_view argument) {
+  return argument.empty() || read_number(argument) == 0.0;
+}
+
+/// Whether CYCLE800 has only zeros for angles and shifts, and replaces a swivel before it (_ST with 0 units).
+bool swivels_by_zero(const Block& block, const Reading& r) {
+  constexpr std::size_t status = 2, first_shift = 4, last_shift = 12;
+  const std::vector<std::string_view> arguments = arguments_of(block, r);
+  const std::optional<double> added = arguments.size() > status ? read_number(arguments[status]) : 0.0;
+  bool zero = arguments.size() > status && added && std::fmod(*added, 10) == 0;
+  for (std::size_t i = first_shift; i < arguments.size() && i <= last_shift; ++i)
+    zero = zero && is_zero_or_left_out(arguments[i]);
+  return zero;
+}
+
+/// CYCLE800 without angles and shifts may retract the tool, and turns the rotary axes to their zero.
+void swivel_by_zero(const Block& block, Reading& r) {
+  end_displacement(block, r, tilted);
+  for (std::size_t axis = 0; axis < 3; ++axis) move_by_machine(r, axis);
+  end_contour(r);
+  r.run_begin = r.program.moves.size();
+  r.last_reason = "CYCLE800 without angles and shifts may retract to a position of the machine";
+  r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
+}
+
 /// Cycles move according to their arguments and restore modal states.
 void run_cycle(const Block& block, Reading& r) {
   std::string_view why = why_not_followed(r);
@@ -193,6 +235,17 @@ void run_cycle(const Block& block, Reading& r) {
   finish_move(r, move);
   r.run_begin = r.program.moves.size();
   if (measures_offset(block, r)) set_control_variable(block, r, {});
+}
+
+/// CYCLE800. Bare, it ends the swivel without a retraction.
+void swivel(const Block& block, Reading& r) {
+  const bool framed_before = is_displaced(r, framed);
+  const bool runs_once = empty(block.block_delete) && !r.in_body() && r.state.unknown_modes == 0;
+  if (block.statement_is_bare && !framed_before && !is_displaced(r, tilted)) return;
+  if (!block.statement_is_bare && !framed_before && runs_once && swivels_by_zero(block, r))
+    return swivel_by_zero(block, r);
+  run_cycle(block, r);
+  displace_or_end(block, r, tilted);
 }
 
 }  // namespace
@@ -276,8 +329,7 @@ void end_statement(const Block& block, Reading& r) {
     case Statement::added_frame:
       return displace_by_statement(block, r, framed);
     case Statement::tilt:
-      run_cycle(block, r);
-      return displace_or_end(block, r, tilted);
+      return swivel(block, r);
     case Statement::transformed:
       return displace_by_statement(block, r, tool_point);
     case Statement::transform_off:

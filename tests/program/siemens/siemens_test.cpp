@@ -30,6 +30,8 @@ TEST_CASE(
   CHECK(read("N10 G90 G71\nN20 G2 X1. Y0. CR=4.\n").dialect == "siemens");
   CHECK(read("%_N_COVER_MPF\n;$PATH=/_N_MPF_DIR\nG71 G0 X1\n").dialect == "siemens");
   CHECK(read("G71\nMSG(\"ROUGH\")\nG0 X1\n").dialect == "siemens");
+  CHECK(read("G71\nT=\"MILL10\"\nG0 X1\n").dialect == "siemens");
+  CHECK(read("G71\nTRANS X10\nG0 X1\n").dialect == "siemens");
   CHECK(read("(CR=4. MCALL)\nG21 G0 X1\n").dialect == "linuxcnc");
   CHECK(read("O0001\nG21 G0 X1.\n(SUPA)\n").dialect == "fanuc");
 }
@@ -327,6 +329,11 @@ TEST_CASE("siemens: text that is not a program is refused with its position") {
   CHECK(diagnostic_of([] { siemens("G71\nG0 X1e5\n"); }).starts_with("p.mpf:2:6: error: X1e5"));
   CHECK(diagnostic_of([] { siemens("G71\n<<<<<<< mine\n"); }).starts_with("p.mpf:2:1: error: '<<<<<<<'"));
   CHECK(diagnostic_of([] { siemens("G71\nG291\n"); }).starts_with("p.mpf:2:1: error: G291"));
+  CHECK(diagnostic_of([] { siemens("G71\nG0 X0 Y0\nG2 X20 Y0 R10\n"); }) ==
+        "p.mpf:3:11: error: R10 is an R parameter without a value: the radius of an arc is CR=, and the "
+        "parameter is set by R10=");
+  CHECK(diagnostic_of([] { siemens("G71\nG0 SUPA\n"); }) == "p.mpf:2:4: error: SUPA has no axis word");
+  CHECK(diagnostic_of([] { siemens("G71\nG0 G153\n"); }) == "p.mpf:2:4: error: G153 has no axis word");
   CHECK(diagnostic_of([] { siemens("G71\nG0 X=\n"); }).starts_with("p.mpf:2:5: error: X= has no value"));
 }
 
@@ -596,4 +603,44 @@ TEST_CASE("siemens: the first difference of an axis behind a change of the frame
     CAPTURE(lines);
     CHECK_FALSE(all_known(last(lines).moves.back().known_end));
   }
+}
+
+TEST_CASE("siemens: CYCLE800 without a swivel moves nothing, and with zeros may retract") {
+  const std::string start = std::string(siemens_start) + "G1 Z-2 F100\n", move = "X5\n";
+  const auto last = [&](const std::string& lines) { return siemens(start + lines + move).moves.back(); };
+  CHECK(all_known(last("CYCLE800()\n").known_end));
+  CHECK(all_known(last("CYCLE800() ; off\n").known_end));
+  CHECK_FALSE(all_known(last("TRANS X5\nCYCLE800()\n").known_end));
+  CHECK_FALSE(all_known(last("CYCLE800(1,\"T\",0,57,0,0,0,0,30)\nCYCLE800()\n").known_end));
+  const std::string zero = "CYCLE800(1,\"TC, 1\",0,57,0,0,0,0,0,0,0,0,0,-1)\n";
+  CHECK(siemens(start + zero).left_alone.back().machine_position);
+  CHECK_FALSE(all_known(last(zero).known_end));
+  const std::string position = "G0 X0 Y0 Z15\n";
+  CHECK(all_known(last(zero + position).known_end));
+  CHECK(all_known(last("CYCLE800(1,\"T\",0,57,0,0,0,0,30)\n" + zero + position).known_end));
+  for (const std::string tilt :
+       {"CYCLE800(1,\"T\",0,57,0,0,0,0,0,30)\n", "CYCLE800(1,\"T\",1,57,0,0,0,0,0,0)\n",
+        "CYCLE800(1,\"T\",0,57,0,0,0,0,0,0,5)\n", "CYCLE800(1,\"T\",0,57,0,0,0,R1)\n", "CYCLE800(1)\n"}) {
+    CAPTURE(tilt);
+    CHECK(last(tilt + position).fixed[0]);
+  }
+}
+
+TEST_CASE("siemens: words that only switch off or smooth move nothing") {
+  for (const std::string word : {"DIAMOF", "TOROTOF", "PAROTOF", "CDOF", "CDON", "OSOF", "OSC", "G621"}) {
+    CAPTURE(word);
+    const Program program = siemens(std::string(siemens_start) + word + "\nG1 X5 F100\n");
+    CHECK(all_known(program.moves.back().known_end));
+    CHECK(program.left_alone.empty());
+  }
+  for (const std::string word : {"DIAMON", "TOROT", "PAROT", "CUT3DCC"})
+    CHECK(siemens(std::string(siemens_start) + word + "\nG1 X5 F100\n").moves.back().fixed[0]);
+}
+
+TEST_CASE("siemens: a label that begins with REPEAT repeats nothing, and ANG=90 keeps its axis") {
+  const std::string start(siemens_start);
+  CHECK(all_known(siemens(start + "REPEAT_LAB: G1 X5 F100\n").moves.back().known_end));
+  CHECK_FALSE(all_known(siemens(start + "AA: G1 X5 F100\nREPEAT AA\n").moves.back().known_end));
+  CHECK_FALSE(all_known(siemens(start + "AA: G1 X5 F100\nREPEATB AA\n").moves.back().known_end));
+  CHECK(siemens(start + "G1 X0 Y0 F100\nANG=90 Y20\n").moves.back().end_mm.x() == 0);
 }

@@ -15,17 +15,17 @@ namespace counterflex {
 
 void add_machine_move(const Block& block, Reading& r, const FoundG& found) {
   const bool reference = found.code->action == Action::reference_move;
+  // SUPA has the effect of G153.
+  const std::string_view word = part(r.program.text, found.word->span);
+  const std::string code = upper(word[0]) == 'G' ? fmt::format("G{}", found.word->value) : upper_case(word);
   if (!reference && !has_axis_word(r.sorted) && !r.sorted.has_any("ABCUVW") && !r.in_body())
-    refuse_word(block, r, *found.word, "G53 has no axis word");
+    refuse_word(block, r, *found.word, code + " has no axis word");
   const bool all = !has_axis_word(r.sorted);
   for (std::size_t axis = 0; axis < 3; ++axis)
     if (all || r.sorted.word(letters_of_axes[axis]) != nullptr) move_by_machine(r, axis);
   if (all || r.sorted.has_any("ABC")) r.state.known_angles.fill(false);
   end_contour(r);
   r.run_begin = r.program.moves.size();
-  // SUPA has the effect of G153.
-  const std::string_view word = part(r.program.text, found.word->span);
-  const std::string code = upper(word[0]) == 'G' ? fmt::format("G{}", found.word->value) : upper_case(word);
   r.last_reason = code + " moves to a position of the machine";
   // G53 of Fanuc is a rapid under any motion.
   const bool feeds =

@@ -200,7 +200,8 @@ bool has_tool_length(const Reading& r) {
 /// ANG= beside one word of X and Y gives the other coordinate by the direction of the line. False if the
 /// block is not followed.
 bool place_by_angle(Reading& r, Move& move) {
-  constexpr double along = 1e-6;  // the direction is nearly along the axis without a word
+  constexpr double along = 1e-6;    // the direction is nearly along the axis without a word
+  constexpr double across = 1e-12;  // of the axis without a word: the cosine of 90 degrees
   const Word& angle = *r.angle;
   const std::size_t given = move.words[0] ? 0 : 1, other = 1 - given;
   const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
@@ -211,7 +212,8 @@ bool place_by_angle(Reading& r, Move& move) {
   const double direction[2] = {std::cos(radians), std::sin(radians)};
   if (std::abs(direction[given]) < along) return false;
   const double way = coordinate(r.state.position_mm, given) - move.start_mm[static_cast<Eigen::Index>(given)];
-  coordinate(r.state.position_mm, other) += way * direction[other] / direction[given];
+  if (std::abs(direction[other]) > across)
+    coordinate(r.state.position_mm, other) += way * direction[other] / direction[given];
   move.words[other] = AxisWord{angle.number, 0};
   move.angle_axis = other == 0 ? 1 : 2;
   return true;
