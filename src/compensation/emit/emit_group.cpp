@@ -83,13 +83,16 @@ double half_range(const std::vector<double>& heights, std::size_t stride) {
 
 }  // namespace
 
-// Whether the arcs of the contour lie in X Y: Z does not touch the radius of the cutter there,
-// and is corrected block by block.
+// Whether the contour lies in X Y: a move beside it has a side of the cutter only there. Z does not touch the
+// radius of the cutter, and is corrected block by block.
 bool Emitter::is_in_xy(std::size_t m) const {
   const auto& moves = job_.program.moves;
-  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m)
+  bool has_side = false;
+  for (const int group = moves[m].group; m < moves.size() && moves[m].group == group; ++m) {
     if (moves[m].arc && moves[m].arc->normal != 2) return false;
-  return true;
+    has_side = has_side || moves[m].cutter_side != CutterSide::none;
+  }
+  return has_side;
 }
 
 // A turned contour is the same contour for the control: it keeps its distance to it. Every end in the plane

@@ -94,7 +94,8 @@ void follow_contour(const KlartextBlock& block, KlartextReading& r, Move& move) 
   const bool leaves = off != nullptr && state.contour;
   // Pieces of a line on which the compensation changes would have it in one of them alone.
   if (state.contour && (!is_beside || changes_side || leaves)) move.stays_whole = true;
-  if (is_beside && state.contour && !leaves && !is_along_z(move)) move.cutter_side = state.cutter_side;
+  if (is_beside && state.contour && !leaves && !is_along_z(move) && state.tool_along_z)
+    move.cutter_side = state.cutter_side;
   if (state.contour || state.after_contour) join_contour(move, state.groups);
   if (divides) move.may_split = true;
   if (leaves) {

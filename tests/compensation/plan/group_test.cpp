@@ -184,3 +184,26 @@ TEST_CASE("a contour group whose step the move before its plunge cannot make is 
   CHECK(failure->what.find("the block takes no X word") != std::string::npos);
   CHECK_FALSE(Shop({.machine = displaced_gantry(), .text = step}).run().failure);
 }
+
+TEST_CASE("a contour in another plane than X Y has one shift in X, Y and Z, with lines alone, too") {
+  const std::vector<std::string> texts{
+      "G21 G90 G18\nG0 Y50.\nX-20. Z-20.\nG1 Y-2. F200\nG41 D1 X10. Z10.\nX50.\nZ60.\nG40 X10. Z10.\nG0 "
+      "Y50.\nM30\n",
+      "0 BEGIN PGM P MM\n1 TOOL CALL 1 Y S1000\n2 L Y+50 R0 FMAX\n3 L X-20 Z-20 FMAX\n4 L Y-2 F200\n5 L X+10 "
+      "Z+10 RL\n6 L X+50\n7 L Z+60\n8 L X+10 Z+10 R0\n9 L Y+50 FMAX\n10 END PGM P MM\n"};
+  for (const std::string& text : texts) {
+    CAPTURE(text);
+    const Compensation result = compensated(Shop({.machine = tilted_gantry(), .text = text}));
+    const std::vector<Move> before = moves_in(text), after = moves_in(result.text);
+    REQUIRE(before.size() == after.size());
+    std::optional<double> shift;
+    for (std::size_t m = 0; m < before.size(); ++m) {
+      if (before[m].group == 0 || !before[m].words[0]) continue;
+      const double own = after[m].end_mm.z() - before[m].end_mm.z();
+      CHECK(std::abs(own - shift.value_or(own)) < 1e-9);
+      shift = own;
+    }
+    CHECK(shift);
+    CHECK(result.left_alone.at(0).why.find("Z block by block") == std::string::npos);
+  }
+}
