@@ -4,8 +4,10 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cstdlib>
+#include <utility>
 
 #include "program/evaluate/constant_expression.hpp"
 #include "program/klartext/read.hpp"
@@ -41,15 +43,28 @@ std::optional<double> value_of(const KlartextReading& r, std::string expression)
   });
 }
 
-/// FN 0 to FN 4 as an expression: "+Q2-+5"; empty for other functions.
+/// The values on both sides of `name` in `text`; empty if it is not there.
+std::optional<std::pair<std::string, std::string>> sides_of(const std::string& text, std::string_view name) {
+  const std::size_t at = text.find(name);
+  if (at == std::string::npos) return std::nullopt;
+  return std::pair(text.substr(0, at), text.substr(at + name.size()));
+}
+
+/// FN 0 to FN 8 as an expression: "+Q2-+5", "SQRT(+16)" of FN 5: Q1 = SQRT +16; empty for other functions.
 std::string expression_of(int function, std::string text) {
+  constexpr std::array<std::string_view, 3> of_one{"SQRT", "SIN", "COS"};  // FN 5 to FN 7
   if (const std::size_t comment = text.find(';'); comment != std::string::npos) text.erase(comment);
+  if (function >= 0 && function <= 3) return text;
   if (function == 4) {
-    const std::size_t divided = text.find("DIV");
-    if (divided == std::string::npos) return {};
-    text.replace(divided, 3, "/");
+    const auto sides = sides_of(text, "DIV");
+    return sides ? sides->first + "/" + sides->second : "";
   }
-  return function >= 0 && function <= 4 ? text : "";
+  if (function >= 5 && function <= 7) {
+    const std::string_view name = of_one[static_cast<std::size_t>(function - 5)];
+    return text.starts_with(name) ? fmt::format("{}({})", name, text.substr(name.size())) : "";
+  }
+  const auto sides = function == 8 ? sides_of(text, "LEN") : std::nullopt;
+  return sides ? fmt::format("SQRT(({0})*({0})+({1})*({1}))", sides->first, sides->second) : "";
 }
 
 void forget_all_in(std::string_view text, KlartextReading& r) {

@@ -113,7 +113,7 @@ bool read_words(const KlartextBlock& block, KlartextReading& reading);
 std::optional<double> klartext_value(const KlartextBlock& block, KlartextReading& reading,
                                      std::string_view squeezed_text);
 
-/// Stores the assignment of FN 0 to FN 4 or "Q1 =". An unknown value makes the parameter unknown.
+/// Stores the assignment of FN 0 to FN 8 or "Q1 =". An unknown value makes the parameter unknown.
 void take_parameter(const KlartextBlock& block, KlartextReading& reading);
 
 /// Whether the block being read may run never or several times.

@@ -261,3 +261,19 @@ TEST_CASE("klartext: the end of a FUNCTION that does not act moves nothing") {
   for (const char* function : {"FUNCTION TCPM F TCP AXIS POS", "FUNCTION MODE MILL \"KIN\""})
     CHECK(read(klartext({function, "L X+0 Y+0 Z+0 FMAX"})).moves.size() == 2);
 }
+
+TEST_CASE("klartext: --evaluate works out FN 5 to FN 8") {
+  ReadOptions options;
+  options.evaluate = true;
+  const auto x_of = [&](const std::string& function) {
+    const Program program =
+        read_program(klartext({"FN 0: Q2 = +30", function, "L X+Q1 Y+0 Z+0 FMAX"}), "p.h", options);
+    return all_known(program.moves.at(0).known_end) ? program.moves[0].end_mm.x() : -1;
+  };
+  CHECK(x_of("FN 5: Q1 = SQRT +16") == doctest::Approx(4));
+  CHECK(x_of("FN 6: Q1 = SIN +Q2") == doctest::Approx(0.5));
+  CHECK(x_of("FN 7: Q1 = COS -60") == doctest::Approx(0.5));
+  CHECK(x_of("FN 8: Q1 = +3 LEN -4") == doctest::Approx(5));
+  CHECK(x_of("FN 13: Q1 = +3 ANG +4") == -1);
+  CHECK(x_of("FN 5: Q1 = SQRT Q9") == -1);
+}
