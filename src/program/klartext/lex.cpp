@@ -350,6 +350,7 @@ std::size_t find_coordinate(std::string_view text, const KlartextBlock& block) {
     bool quoted = false;
     for (std::size_t at = line.begin + 1; at + 1 < line.end; ++at) {
       if (text[at] == '"') quoted = !quoted;
+      if (text[at] == '(' && !quoted) break;  // a comment
       const bool axis = std::string_view("XYZ").find(klartext_upper(text[at])) != std::string_view::npos;
       const char behind = text[at + 1];
       if (!quoted && axis && klartext_blank(text[at - 1]) &&

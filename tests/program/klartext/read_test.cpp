@@ -232,7 +232,7 @@ TEST_CASE("klartext: an axis twice, and coordinates in blocks that do not move, 
     CHECK(klartext_refusal({block}).find(" is not allowed in a block with ") != std::string::npos);
   }
   for (const char* block : {"RND R5 F200", "STOP M6", "TOOL CALL 5 Z S2000 F500 DL+0.1", "LBL \"X 20\"",
-                            "TOOL CALL \"MILL X5\" Z S2000", "TOOL DEF 7", "LBL 3 ; X+20"}) {
+                            "TOOL CALL \"MILL X5\" Z S2000", "TOOL DEF 7", "LBL 3 ; X+20", "STOP (to X20)"}) {
     CAPTURE(block);
     CHECK(klartext_refusal({block}) == "none");
   }
