@@ -136,6 +136,35 @@ TEST_CASE("an arc with an expression as its centre is held, or fixed if the cent
   CHECK_FALSE(fixed.moves[1].known_end[0]);
 }
 
+TEST_CASE("the way of an arc whose centre, radius or turns are an expression is not its chord") {
+  const std::vector<std::pair<std::string, std::string>> arcs{{"G3 X21. Y10. R#1", "linuxcnc"},
+                                                              {"G3 X21. Y10. I#1 J#2", "linuxcnc"},
+                                                              {"G3 X21. Y10. I.5 J-50. P#1", "linuxcnc"},
+                                                              {"G3 X21. Y10. R#1", "fanuc"},
+                                                              {"G3 X21. Z-1. I#1", "fanuc"},
+                                                              {"G3 Z-1. I#1", "fanuc"},
+                                                              {"G3 X21. CR=R1", "siemens"},
+                                                              {"G3 X21. Y10. I=R1 J0", "siemens"},
+                                                              {"G3 X21. Y10. I.5 J-50. TURN=R1", "siemens"}};
+  for (const auto& [arc, dialect] : arcs) {
+    CAPTURE(arc);
+    CAPTURE(dialect);
+    const std::string modes = dialect == "siemens" ? "G71 G90" : "G21 G90";
+    const Program program = read(modes + "\nG0 X20. Y10. Z0.\n" + arc + " F100\nG1 X40.\n", dialect);
+    const Move& move = program.moves.at(1);
+    CHECK_FALSE(all_known(move.known_start));
+    CHECK(all_known(move.known_end));
+    CHECK(all_known(move.moved_only_by_program));
+    CHECK(all_known(program.moves.at(2).known_start));
+  }
+  CHECK(read("G21 G90 G93\nG0 X0 Y0 Z0\nG3 X1 R#1 F9\n").moves.at(1).feed_mm_min == 0);
+}
+
+TEST_CASE("the height that a machine position leaves unknown stays unknown on an arc that is not followed") {
+  const Program program = read("G21 G90\nG0 X0 Y0 Z0\nG28 Z0\nG3 X1 R#1 F9\n");
+  CHECK(program.moves.at(1).moved_only_by_program == std::array<bool, 3>{true, true, false});
+}
+
 TEST_CASE("F of G93 applies to one move: the feed follows from its length") {
   const Program program = read("G21 G0 X0 Y0 Z0\nG93 G1 X10 F2\nG2 X20 I5 F4\nX30 Y0 R5\nG94 G1 X0 F100\n");
   CHECK(program.moves[1].feed_mode == FeedMode::inverse_time);

@@ -41,17 +41,6 @@ void apply_retract(const Block& block, Reading& r) {
   r.program.left_alone.push_back({block.line, r.last_reason, true, block.text_line});
 }
 
-namespace {
-
-/// Splines and pockets: the tool reaches the end on a way that is not followed.
-void forget_way(Move& move) {
-  for (std::size_t axis = 0; axis < 3; ++axis)
-    if (move.words[axis]) move.known_start[axis] = false;
-  move.moved_only_by_program.fill(true);
-}
-
-}  // namespace
-
 void read_held(const Block& block, Reading& r, std::string_view what, bool end_known) {
   Move& move = start_move(block, r, Motion::feed);
   place_words(block, r, move);

@@ -267,7 +267,7 @@ void read_arc(const Block& block, Reading& r) {
   if (move.arc) count_turns(block, r, *move.arc, move.start_mm);
   if (!move.arc) {
     hold_arc(r, move, plane, start_known);
-    if (followed) note_uncorrected(block, r, why_unknown(r, start_known));
+    if (followed) forget_way(move), note_uncorrected(block, r, why_unknown(r, start_known));
   }
   finish_move(r, move);
 }

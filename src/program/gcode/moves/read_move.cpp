@@ -365,6 +365,12 @@ void fix_axis(Reading& r, Move& move, std::size_t axis) {
   r.state.known[axis] = false;
 }
 
+void forget_way(Move& move) {
+  move.moved_only_by_program = move.known_start;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (move.words[axis]) move.known_start[axis] = false;
+}
+
 void place_words(const Block& block, Reading& r, Move& move) {
   const std::string_view why = why_not_followed(r);
   if (may_turn_tool(r)) place_angles(block, r, move, why.empty());

@@ -41,6 +41,9 @@ void move_by_machine(Reading& reading, std::size_t axis);
 /// The block moves the axis to a position that is not known from the program.
 void fix_axis(Reading& reading, Move& move, std::size_t axis);
 
+/// Splines, pockets, arcs without a known centre: the tool reaches the end on a way that is not followed.
+void forget_way(Move& move);
+
 /// Sets what may be changed of a move read by `takes_plain_lines`, with the result of `finish_move`.
 void allow_plain_changes(Move& move);
 
