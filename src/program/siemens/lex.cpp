@@ -153,7 +153,8 @@ void skip_harmless(Scanner& s, std::string_view name) {
   if (is_speed_name(name)) return take_speed_word(s, name.size());
   s.at += name.size();
   s.skip_blanks();
-  if (s.peek() == '(' || s.peek() == '[') skip_siemens_value(s), s.skip_blanks();
+  if (s.peek() == '(') skip_siemens_value(s), s.skip_blanks();
+  if (s.peek() == '[') skip_siemens_index(s), s.skip_blanks();
   if (s.peek() != '=') return;
   ++s.at;
   s.skip_blanks();

@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <string_view>
 
 #include "counterflex/files/text.hpp"
@@ -25,6 +26,42 @@ bool skip_operator(Scanner& s) {
   return found;
 }
 
+std::optional<double> plain_number(std::string_view text) {
+  return text.find_first_not_of("+-.0123456789") == std::string_view::npos ? read_number(text) : std::nullopt;
+}
+
+/// "SIN", "_DEPTH2", and of text that begins with a number or a numbered parameter only these: "R1" of
+/// "R1F5".
+std::size_t size_of_operand(std::string_view name) {
+  const bool numbered = is_digit(name[0]) || (is_letter(name[0]) && name.size() > 1 && is_digit(name[1]));
+  return numbered ? std::min(name.find_first_not_of("0123456789", 1), name.size()) : name.size();
+}
+
+/// "DIV" of "DIV2", and "EX" before the exponent of a number; 0 for other names.
+std::size_t size_of_operator(const Scanner& s) {
+  const std::string_view name = siemens_name_at(s);
+  const std::string_view letters = name.substr(0, name.find_first_of("0123456789"));
+  return is_siemens_operator(letters) || is_word(letters, "EX") ? letters.size() : 0;
+}
+
+void skip_quoted(Scanner& s) {
+  const char quote = s.peek();
+  for (++s.at; s.at < s.end && s.peek() != quote; ++s.at) {
+  }
+  s.at = std::min(s.at + 1, s.end);
+}
+
+/// The value from `begin` ends at the word at the scanner. Refuses an expression that does not end in a
+/// bracket: "R1F600".
+void end_before_word(const Scanner& s, std::size_t begin) {
+  const std::string_view value = s.text.substr(begin, s.at - begin);
+  if (plain_number(value) || std::string_view(")]\"'").find(value.back()) != std::string_view::npos) return;
+  const std::string_view name = siemens_name_at(s);
+  s.refuse_at(s.at, fmt::format("'{}' is directly behind '{}': only behind a number or a bracket does a word "
+                                "need no blank; write a blank before '{}'",
+                                name, value, name));
+}
+
 /// An assigned expression: values with operators between them.
 void skip_assigned(Scanner& s) {
   for (bool more = true; more; more = skip_operator(s)) {
@@ -37,10 +74,6 @@ void skip_assigned(Scanner& s) {
 int decimals_in_plain(std::string_view number) {
   const std::size_t point = number.find('.');
   return point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
-}
-
-std::optional<double> plain_number(std::string_view text) {
-  return text.find_first_not_of("+-.0123456789") == std::string_view::npos ? read_number(text) : std::nullopt;
 }
 
 /// "12.5", "AC(12.5)", "IC(-3)" behind the '=' of a word. Any other value is an expression.
@@ -80,15 +113,29 @@ void skip_siemens_rest(Scanner& s) {
 }
 
 void skip_siemens_value(Scanner& s) {
+  const std::size_t begin = s.at;
   int depth = 0;
-  bool quoted = false;
-  for (; s.at < s.end; ++s.at) {
+  bool complete = false;  // an operand or a bracket ends at the scanner
+  while (s.at < s.end) {
     const char c = s.peek();
-    if (c == '"') quoted = !quoted;
-    if (quoted) continue;
-    if (c == '(' || c == '[') ++depth;
-    if (c == ')' || c == ']') --depth;
-    if (depth <= 0 && (is_blank(c) || c == ';')) break;
+    if (depth <= 0 && (is_blank(c) || c == ';')) return;
+    if (c == '"' || c == '\'') {
+      skip_quoted(s);
+      complete = true;
+    } else if (!is_name_character(c)) {
+      if (c == '(' || c == '[') ++depth;
+      if (c == ')' || c == ']') --depth;
+      complete = c == ')' || c == ']' || (c == '.' && complete);
+      ++s.at;
+    } else if (complete && depth <= 0 && !is_digit(c)) {
+      const std::size_t size = size_of_operator(s);
+      if (size == 0) return end_before_word(s, begin);
+      s.at += size;
+      complete = false;
+    } else {
+      s.at += size_of_operand(siemens_name_at(s));
+      complete = true;
+    }
   }
 }
 

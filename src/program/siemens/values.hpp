@@ -12,7 +12,8 @@ std::string_view siemens_name_at(const Scanner& scanner);
 /// Skips to the comment.
 void skip_siemens_rest(Scanner& scanner);
 
-/// A value, up to a blank outside of brackets and quotes.
+/// A value, up to a blank outside of brackets and quotes, or the word directly behind a number or a bracket:
+/// "10F600", "AC(5)Y2". Throws `InputError` if the end of the value is not certain: "R1F600".
 void skip_siemens_value(Scanner& scanner);
 
 /// "[X]", "[R1, 2]".

@@ -137,20 +137,19 @@ TEST_CASE("an arc with an expression as its centre is held, or fixed if the cent
 }
 
 TEST_CASE("the way of an arc whose centre, radius or turns are an expression is not its chord") {
-  const std::vector<std::pair<std::string, std::string>> arcs{{"G3 X21. Y10. R#1", "linuxcnc"},
-                                                              {"G3 X21. Y10. I#1 J#2", "linuxcnc"},
-                                                              {"G3 X21. Y10. I.5 J-50. P#1", "linuxcnc"},
-                                                              {"G3 X21. Y10. R#1", "fanuc"},
-                                                              {"G3 X21. Z-1. I#1", "fanuc"},
-                                                              {"G3 Z-1. I#1", "fanuc"},
-                                                              {"G3 X21. CR=R1", "siemens"},
-                                                              {"G3 X21. Y10. I=R1 J0", "siemens"},
-                                                              {"G3 X21. Y10. I.5 J-50. TURN=R1", "siemens"}};
-  for (const auto& [arc, dialect] : arcs) {
-    CAPTURE(arc);
-    CAPTURE(dialect);
-    const std::string modes = dialect == "siemens" ? "G71 G90" : "G21 G90";
-    const Program program = read(modes + "\nG0 X20. Y10. Z0.\n" + arc + " F100\nG1 X40.\n", dialect);
+  struct Line {
+    std::string arc, dialect;
+  };
+  for (const auto& line :
+       {Line{"G3 X21. Y10. R#1", "linuxcnc"}, Line{"G3 X21. Y10. I#1 J#2", "linuxcnc"},
+        Line{"G3 X21. Y10. I.5 J-50. P#1", "linuxcnc"}, Line{"G3 X21. Y10. R#1", "fanuc"},
+        Line{"G3 X21. Z-1. I#1", "fanuc"}, Line{"G3 Z-1. I#1", "fanuc"}, Line{"G3 X21. CR=R1", "siemens"},
+        Line{"G3 X21. Y10. I=R1 J0", "siemens"}, Line{"G3 X21. Y10. I.5 J-50. TURN=R1", "siemens"}}) {
+    CAPTURE(line.arc);
+    CAPTURE(line.dialect);
+    const std::string modes = line.dialect == "siemens" ? "G71 G90" : "G21 G90";
+    const Program program =
+        read(modes + "\nG0 X20. Y10. Z0.\n" + line.arc + " F100\nG1 X40.\n", line.dialect);
     const Move& move = program.moves.at(1);
     CHECK_FALSE(all_known(move.known_start));
     CHECK(all_known(move.known_end));

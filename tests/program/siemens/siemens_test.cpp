@@ -409,6 +409,51 @@ TEST_CASE("siemens: words behind a value that moves no axis are read") {
   }
 }
 
+TEST_CASE("siemens: a word directly behind a number or a bracket is read") {
+  const std::string arc = std::string(siemens_start) + "G1 X20 F100\n";
+  for (const char* const line :
+       {"G3 X40 Y0 CR=10F600", "G3 X=40Y=0CR=10.F600", "G3 X=AC(40)Y0 I=AC(30)J=AC(0)F600",
+        "G3 X40 Y=IC(0)I10 J=IC(0)F=600", "G3 X40 Y0 CR=10TURN=0F600"}) {
+    CAPTURE(line);
+    const Program program = siemens(arc + line + "\nG1 X50\n");
+    REQUIRE(program.moves.size() == 4);
+    REQUIRE(program.moves[2].arc);
+    CHECK((program.moves[2].arc->centre_mm - Vector3(30, 0, 50)).norm() < 1e-9);
+    CHECK(program.moves[2].end_mm == Vector3(40, 0, 50));
+    CHECK(program.moves[3].feed_mm_min == 600);
+  }
+  for (const char* const line :
+       {"ADIS=0.5G1 X20 F600", "R5=2G1 X20 F600", "SPOS=0G1 X20 F600", "MSG(\"A\")G1 X20 F600",
+        "FL[X]=1000G1 X20 F600", "R5=2R6=R5 DIV 3 G1 X20 F600", "R5=SIN(30)G1 X20 F600",
+        "R5=R6DIV2 G1 X20 F600", "R5=1.5EX-3 R6=1EX3 G1 X20 F600", "S=R[1]G1 X20 F600"}) {
+    CAPTURE(line);
+    const Program program = siemens(std::string(siemens_start) + line + "\n");
+    REQUIRE(program.moves.size() == 2);
+    CHECK(program.moves[1].end_mm.x() == 20);
+    CHECK(program.moves[1].feed_mm_min == 600);
+    CHECK(program.left_alone.empty());
+  }
+  CHECK(siemens("T=5M6\nG0 X0 Y0 Z0\n").moves.at(0).tool == 5);
+}
+
+TEST_CASE("siemens: a word directly behind an expression is refused") {
+  struct Line {
+    std::string value, word;
+  };
+  for (const auto& line : {Line{"G3 X40 Y0 CR=|R1", "F600"}, Line{"G1 X=|R1+5", "Y20"}, Line{"R5=|R1", "M6"},
+                           Line{"S=|1EX3", "M3"}}) {
+    const std::size_t bar = line.value.find('|');
+    const std::string before = line.value.substr(0, bar), value = line.value.substr(bar + 1);
+    CAPTURE(value);
+    const std::string text = std::string(siemens_start) + before + value + line.word + "\n";
+    CHECK(diagnostic_of([&] { siemens(text); }) ==
+          "p.mpf:4:" + std::to_string(line.value.size()) + ": error: '" + line.word +
+              "' is directly behind '" + value +
+              "': only behind a number or a bracket does a word need no blank; write a blank before '" +
+              line.word + "'");
+  }
+}
+
 TEST_CASE("siemens: assignments alone do not move, and an axis with a number is not followed") {
   for (const char* const line : {"_VAR=5", "_A=5 _B=R1 * (2 + R3) M8", "_S=\"X20 G1\"", "R1=SIN(30) DIV 2"}) {
     CAPTURE(line);
