@@ -58,6 +58,12 @@ std::string separator_of(const Original& o, const std::string& otherwise) {
   return std::string(is_axis(*(last - 1)) ? gap : gap.substr(0, 1));
 }
 
+/// Whether the block has a word with '=', as "CR=10" or "I=AC(5)". Its pieces have such words, too.
+bool has_equals_sign(const Original& o) {
+  return std::ranges::any_of(
+      o.block.words, [&](const Word& word) { return o.text(word.span).find('=') != std::string_view::npos; });
+}
+
 /// `number` of a G0 to G3 changed to `motion`, with its leading zero.
 std::string motion_number(std::string_view number, int motion) {
   const bool two_digits = number.size() == 2 && number.front() == '0';
@@ -76,6 +82,7 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
                    ? style.line_end
                    : program.text.substr(move.block.end, newline + 1 - move.block.end);
   o.separator = separator_of(o, style.separator);
+  if (o.separator.empty() && has_equals_sign(o)) o.separator = " ";
   const Word* shown = word_that_shows_style(o.block);
   o.lower_case = shown != nullptr && is_lower(program.text[shown->span.begin]);
   return o;

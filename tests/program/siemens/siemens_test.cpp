@@ -160,6 +160,25 @@ TEST_CASE("siemens: CR= arcs move with their ends and keep their form in pieces"
             .text.ends_with("G3 X7.071 Y2.929 CR=10.000 F200\nG3 X10. Y10. CR=10. F200\n"));
 }
 
+TEST_CASE("siemens: the words of pieces have blanks between them if one has '='") {
+  const std::string start = "G90 G17 G71\nG0 X0Y0Z50 D1\n";
+  const double s = 10 * std::sqrt(0.5);
+  const MoveEdit halves{.move = 1,
+                        .inserted = {{{s, 10 - s, 50}, Vector3(0, 10, 50)}},
+                        .end_mm = {10, 10, 50},
+                        .centre_mm = Vector3(0, 10, 50)};
+  for (const auto& [block, piece] :
+       {std::pair{"G3 X10.Y10. I=AC(0) J=AC(10) F200", "G3 X7.071 Y2.929 I=AC(0.000) J=AC(10.000) F200"},
+        std::pair{"G3X10.Y10.CR=10.F200", "G3 X7.071 Y2.929 CR=10.000 F200"},
+        std::pair{"G3X10.Y10.I0J10.F200", "G3X7.071Y2.929I0.000J10.000F200"}}) {
+    const Program program = siemens(start + block + "\n");
+    const std::string text = rewrite(program, {halves}, {}).text;
+    CAPTURE(text);
+    CHECK(text.find(piece + std::string("\n")) != std::string::npos);
+    CHECK(siemens(text).moves.size() == 3);
+  }
+}
+
 TEST_CASE("siemens: TURN is the number of additional full turns") {
   const Program program = siemens(std::string(siemens_start) + "G3 X0 Y0 Z-2 I10 J0 TURN=2 F200\n");
   REQUIRE(program.moves.back().arc);
