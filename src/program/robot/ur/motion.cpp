@@ -56,15 +56,25 @@ UrTarget target_of(const UrPose& pose) {
 
 UrTarget target_at(const UrReading& r, Span value);
 
+/// Whether `value` is a variable that the text never assigns: a feature of the installation.
+bool is_feature(const UrReading& r, Span value) {
+  const std::string_view text = r.robot.program.text;
+  const Span name = ur_name_at(text, value.begin, value.end);
+  if (empty(name) || name.end != value.end) return false;
+  const auto found = r.names.variables.find(part(text, name));
+  return found == r.names.variables.end() || found->second.values.empty();
+}
+
 /// pose_trans(ref, p): p is a pose in the frame ref.
 UrTarget target_in_frame(const UrReading& r, const UrCall& call) {
   const std::string_view text = r.robot.program.text;
   const Span ref = call.arguments[0].value;
   const auto frame = ur_pose(text, ur_resolved(text, r.names, ref));
   UrTarget target = target_at(r, call.arguments[1].value);
-  if (!frame || target.kind != TargetKind::pose || target.frame != ProgramFrame{}) return {};
-  const std::string_view name = ur_pose(text, ref) ? "pose_trans" : part(text, ref);
-  target.frame = {.work_offset = std::string(name), .pose_mm = ur_pose_mm(*frame)};
+  if (target.kind != TargetKind::pose || target.frame != ProgramFrame{}) return {};
+  if (!frame && !is_feature(r, ref)) return {};
+  target.frame.work_offset = ur_pose(text, ref) ? "pose_trans" : part(text, ref);
+  if (frame) target.frame.pose_mm = ur_pose_mm(*frame);
   return target;
 }
 

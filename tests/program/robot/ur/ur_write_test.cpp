@@ -104,6 +104,24 @@ TEST_CASE("pose_trans gives a target in the frame of a constant pose") {
         std::string::npos);
 }
 
+TEST_CASE("the frame of pose_trans may be a feature of the installation, which the text never assigns") {
+  const std::string move = "movel(pose_trans(table, p[0.02, 0, 0, 0, 0, 0]), v=0.1)\n";
+  const Program program = read_ur_statements(move);
+  REQUIRE(program.moves.size() == 1);
+  CHECK(all_known(program.moves[0].known_end));
+  CHECK(program.frames[program.moves[0].frame].work_offset == "table");
+  CHECK_FALSE(program.frames[program.moves[0].frame].pose_mm);
+  CHECK(rewrite(program, shifted(program, {1, 0, 0}), {}).text.find("pose_trans(table, p[0.021, 0, 0,") !=
+        std::string::npos);
+  for (const std::string computed :
+       {"table = get_feature(1)\n" + move, move + "table = p[1, 0, 0, 0, 0, 0]\n", "table[2] = 0.1\n" + move,
+        std::string("movel(pose_trans(get_feature(1), p[0.02, 0, 0, 0, 0, 0]), v=0.1)\n"),
+        std::string("movel(pose_trans(table, pose_trans(part, p[0.02, 0, 0, 0, 0, 0])), v=0.1)\n")}) {
+    CAPTURE(computed);
+    CHECK_FALSE(any_axis(read_ur_statements(computed).moves.at(0).known_end));
+  }
+}
+
 TEST_CASE("a named pose is rewritten where it is declared if all its uses want the same") {
   const std::string statements =
       "global P1=p[0.1,0,0.2,0,0,0]\n"
