@@ -26,6 +26,11 @@ std::size_t size_of(const Move& move) {
                                    : places_of_a_line;
 }
 
+/// Both sides of a corner are judged together.
+bool begins_at_corner(const Move& move) {
+  return move.corners && move.corners->begin_mm > 0;
+}
+
 /// A window of this multiple of the required size may end before a move along Z. This limits the memory of a
 /// program without moves across.
 constexpr std::size_t largest_along_z = 2;
@@ -185,7 +190,8 @@ struct ProgramReader::State {
       const std::size_t now = program().moves.size();
       const bool one = now == before + 1 && size_so_far() > least;
       const bool is_large = size_so_far() / largest_along_z > least;
-      if (one && !blocks->has_ended() && blocks->may_end_before(program().moves.back(), is_large))
+      if (one && !blocks->has_ended() && !begins_at_corner(program().moves.back()) &&
+          blocks->may_end_before(program().moves.back(), is_large))
         return end_before_last();
     }
     while (least_moves == whole_program && append()) {

@@ -313,6 +313,7 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   report.command = Command::verify;
   add_residual(report, tally, measures);
   report.blocks.corrected = measures.segments_changed + tally.corrected_moves();
+  list(report.blocks.left_alone, tally.left_alone());
   report.blocks.inserted = corrected.blocks - std::min(corrected.blocks, context.program.blocks);
   report.text_after = TextSize{corrected.blocks, corrected.bytes};
   report.warnings = all_warnings(context, tally, report);

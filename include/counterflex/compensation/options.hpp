@@ -153,6 +153,7 @@ struct Waypoint {
   bool place = true;     ///< of the original path: statistics of `before` and of its causes are over these
   bool exempt = false;
   bool insignificant = false;            ///< above the tolerance, and accepted: `after` is not above its band
+  bool in_corner = false;                ///< on the rounding or chamfer that the control puts behind the move
   BoxedOptional<Matrix3> R_MT;           ///< wanted orientation, where the program gives one
   double weight = 0;                     ///< of the cutting length: the way from the waypoint before (m)
   double s = 0;                          ///< cutting path length (m)
@@ -232,6 +233,10 @@ struct ForwardRun {
 /// middle, an arc at least every 11.25 degrees. Where the middle is off the line between the deviations
 /// beside it by more than a tenth of the tolerance, or where less than a fifth of the tolerance is left, the
 /// odd sixteenths between the two places are sampled, too. No piece is inferred from its neighbours.
+///
+/// What a control puts into a corner between two pieces is sampled at 17 places or more: `in_corner`, with
+/// the first of the two pieces. Its wanted way lies between the wanted curves, its command between those of
+/// the pieces.
 ///
 /// What differs from the wanted path is a matter for the caller; only a status other than converged is a
 /// failure here.

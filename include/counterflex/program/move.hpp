@@ -139,11 +139,28 @@ struct CalledCycle {
   std::array<double, 4> heights_mm{};
 };
 
+/// How the size of a corner is given.
+enum class CornerKind : std::uint8_t {
+  round,    ///< by its radius
+  side,     ///< a chamfer by the length removed from both sides
+  chamfer,  ///< a chamfer by its own length
+};
+
+/// A corner that a control rounds or chamfers.
+struct CornerSize {
+  double mm = 0;  ///< NaN: not a plain number
+  CornerKind kind = CornerKind::round;
+};
+
+/// Length that a corner removes from each of two lines whose directions differ by `turn` (rad), in the unit
+/// of `size`.
+double taken_by_corner(CornerKind kind, double size, double turn);
+
 /// Length (mm) by which a control shortens a line for rounded or chamfered corners at its ends. These parts
 /// of a line stay at one height, because both sides of a corner lie in one plane.
 struct CornerEnds {
   double begin_mm = 0, end_mm = 0;
-  bool end_is_round = false;  ///< the corner at its end is rounded, not chamfered
+  CornerSize end_size{};  ///< of the corner at its end, between lines and arcs; valid only if `end_mm` > 0
 };
 
 /// What a target states of the turns of rotary axes, beside its pose. A corrected target keeps it.

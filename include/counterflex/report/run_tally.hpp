@@ -171,7 +171,8 @@ class RunTally {
   /// The next waypoints of the path, cut anywhere; of the operations of their moves nothing is known.
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// The same for waypoints of a window, or some of them.
+  /// The same for waypoints of a window, or some of them: those of a corner together. Lists corners that miss
+  /// the tolerance.
   void add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window);
 
   /// The next window's moves and forces, before its waypoints.
@@ -217,6 +218,7 @@ class RunTally {
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
   void add_to_travel(const Waypoint& w, const Job& window, double u_before);
   void add_as_programmed(const Waypoint& w, bool cuts);
+  void list_corners(const std::vector<Waypoint>& waypoints, const Job& window);
   void add_reversals(const Job& window);
   ToolSize size_of(long tool) const;
   MoveFacts facts_of(const Job& window, const Waypoint& w) const;

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 
+#include "compensation/solve/corner_way.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -126,21 +127,15 @@ void divide_way(const MoveEdit& edit, ContourWay& way) {
 }
 
 // Takes what a corner between two lines takes, and puts its rounding or chamfer between them.
-void put_corner(const CornerEnds& corner, std::vector<ContourWay>& ways, ContourWay& after) {
+void put_corner(const CornerSize& size, std::vector<ContourWay>& ways, ContourWay& after) {
   ContourWay& before = ways.back();
-  const Vector3 p = before.curve.end, a = direction_at(before.curve, 1), b = direction_at(after.curve, 0);
-  const double turn = std::atan2(a.cross(b).z(), a.dot(b)), taken_mm = corner.end_mm;
-  ContourWay between{.curve = {p - taken_mm * a, p + taken_mm * b}, .side = before.side, .move = before.move};
-  if (corner.end_is_round && std::abs(turn) > tangent) {
-    const Vector3 normal(0, 0, turn > 0 ? 1 : -1);
-    const double radius = taken_mm / std::tan(std::abs(turn) / 2);
-    between.curve.arc = Arc{between.curve.start + radius * normal.cross(a), normal, std::abs(turn)};
-  }
-  before.curve.end = between.curve.start;
-  before.last_mm -= taken_mm;
-  after.curve.start = between.curve.end;
-  after.first_mm -= taken_mm;
-  ways.push_back(between);
+  const auto between = corner_way(before.curve, after.curve, size.kind, size.mm);
+  if (!between) return;  // hardly a corner
+  before.last_mm -= (before.curve.end - between->start).norm();
+  after.first_mm -= (between->end - after.curve.start).norm();
+  before.curve.end = between->start;
+  after.curve.start = between->end;
+  ways.push_back({.curve = *between, .side = before.side, .move = before.move});
 }
 
 // Collects the ways of one contour after the other.
@@ -202,7 +197,7 @@ class ContourReader {
     const CornerEnds& corner = *job_.program.moves[ways_.back().move].corners;
     if (corner.end_mm == 0) return;
     if (corner.end_mm < std::min(length(ways_.back().curve), length(way.curve)))
-      put_corner(corner, ways_, way);
+      put_corner(corner.end_size, ways_, way);
     else
       finish();
   }

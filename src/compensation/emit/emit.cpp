@@ -83,7 +83,8 @@ double slope(const Move& move, double rise_mm) {
 double share_for_tool(const Move& before, CutterSide side) {
   const Move& after = *(&before + 1);
   const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
-  if (before.corners->end_is_round || !is_inner_corner(curve_of(before), curve_of(after), side)) return 0;
+  const bool is_round = before.corners->end_size.kind == CornerKind::round;
+  if (is_round || !is_inner_corner(curve_of(before), curve_of(after), side)) return 0;
   return std::cos(std::atan2(a.cross(b).norm(), a.dot(b)) / 2);
 }
 

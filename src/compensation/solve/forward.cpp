@@ -32,7 +32,8 @@ Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double sh
   w.corrected_line = piece.corrected_line;
   w.between = sample.between;
   w.place = sample.place;
-  w.exempt = sample.between ? piece.exempt : piece.exempt_end;
+  w.in_corner = sample.in_corner;
+  w.exempt = sample.in_corner || (sample.between ? piece.exempt : piece.exempt_end);
   w.p_MT = all.places[s].p_MT;
   w.tool_axis = all.wanted[s].X_MT.R.col(2);
   w.R_MT = all.places[s].R_MT;
@@ -183,7 +184,7 @@ std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pi
   std::vector<std::size_t> borders{0};
   double places = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (places >= slice_size) {
+    if (places >= slice_size && !meet_at_corner(job, pieces[i - 1], pieces[i])) {
       borders.push_back(i);
       places = 0;
     }

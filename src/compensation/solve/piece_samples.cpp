@@ -1,9 +1,11 @@
 #include "compensation/solve/piece_samples.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "compensation/plan/places.hpp"
 #include "compensation/solve/commands.hpp"
+#include "compensation/solve/corner_way.hpp"
 #include "compensation/solve/failures.hpp"
 #include "compensation/tuning.hpp"
 
@@ -253,6 +255,47 @@ void sample_closer(Slice& slice) {
   }
 }
 
+// On what the control puts into the corner between piece `t` and the next one. These samples belong to piece
+// `t`. The first half is under the forces beside the end of that piece, the second half under those beside
+// the start of the next one.
+void add_corner(Slice& slice, std::size_t t) {
+  const SampledPiece &before = slice.pieces[t], &after = slice.pieces[t + 1];
+  const Curve &line = before.segment->wanted, &next = after.segment->wanted;
+  const auto ways = corner_ways({line, before.piece->commanded}, {next, after.piece->commanded},
+                                slice.job.program.moves[before.piece->move].corners->end_size);
+  if (!ways) return;
+  const Curve& wanted = ways->wanted;
+  const double taken = std::min(1.0, (line.end - wanted.start).norm() / length(line)),
+               taken_behind = std::min(1.0, (wanted.end - next.start).norm() / length(next));
+  const int steps =
+      static_cast<int>(std::clamp(std::ceil(length(wanted) / between_places), 2.0 * eighths, 8.0 * eighths));
+  const double u0 = before.piece->u0;
+  for (int k = 0; k <= steps; ++k) {
+    const double w = static_cast<double>(k) / steps;
+    const bool is_behind = w > 0.5;
+    const double u = is_behind ? (2 * w - 1) * taken_behind : 1 - (1 - 2 * w) * taken,
+                 u_of_sample = 1 - taken * (1 - static_cast<double>(k) / (steps + 1));
+    const Piece& beside = *(is_behind ? after : before).piece;
+    const Side side = is_behind ? Side::after : Side::before;
+    add_sample(slice,
+               {.piece = t,
+                .v = std::max(0.0, (u_of_sample - u0) / (1 - u0)),
+                .u = u_of_sample,
+                .between = true,
+                .in_corner = true},
+               slice.job.forces.at(beside.segment, u, side, slice.cursor));
+    slice.places.back().p_MT = point_at(wanted, w);
+    slice.requests.back().target = point_at(ways->commanded, w);
+    slice.requests.back().directions = directions_at(slice.job, beside.move, u, side);
+  }
+}
+
+void add_corners(Slice& slice) {
+  if (!slice.questions.inside) return;
+  for (std::size_t t = 0; t + 1 < slice.pieces.size(); ++t)
+    if (meet_at_corner(slice.job, *slice.pieces[t].piece, *slice.pieces[t + 1].piece)) add_corner(slice, t);
+}
+
 // Listed samples in order along the path, to the first that fails.
 std::vector<std::size_t> listed_samples(const Slice& slice) {
   std::vector<std::size_t> order;
@@ -273,10 +316,18 @@ std::vector<std::size_t> listed_samples(const Slice& slice) {
 
 }  // namespace
 
+bool meet_at_corner(const Job& job, const Piece& before, const Piece& after) {
+  const auto& corners = job.program.moves[before.move].corners;
+  const bool is_behind = corners && corners->end_mm > 0 && after.move == before.move + 1;
+  return is_behind && before.segment != no_segment && after.segment == before.segment + 1 &&
+         !before.end_only && !after.end_only;
+}
+
 PieceSamples sample_pieces(const Job& job, PlaceSolver& solver, std::span<const Piece> pieces,
                            const Questions& questions, const std::optional<Vector3>& command) {
   Slice slice(job, questions, solver);
   add_pieces(slice, pieces, command);
+  add_corners(slice);
   solve_added(slice);
   sample_middles(slice);
   solve_added(slice);

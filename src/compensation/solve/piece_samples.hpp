@@ -22,6 +22,7 @@ struct PieceSample {
   bool between = false;      ///< inside the piece
   bool place = false;        ///< of the original path
   bool listed = true;        ///< becomes a waypoint
+  bool in_corner = false;    ///< on what the control puts between the piece and the next one
   Side side = Side::before;  ///< of a step of the force
 };
 
@@ -40,6 +41,10 @@ struct PieceSamples {
     return wanted[s].status != Status::converged ? wanted[s].status : answers[s].status;
   }
 };
+
+/// Whether the control puts a rounding or a chamfer between two pieces, one behind the other. Both must be
+/// sampled together.
+bool meet_at_corner(const Job& job, const Piece& before, const Piece& after);
 
 /// Solves `pieces` as `solve_pieces` describes; `command`: where the piece before them ended.
 PieceSamples sample_pieces(const Job& job, PlaceSolver& solver, std::span<const Piece> pieces,

@@ -34,17 +34,19 @@ void expect_corner_before(Move& move) {
 }
 
 void place_corner(const CornerSize& size, Move& before, Move& after) {
+  ends_of(before).end_size = size;
   if (!(size.mm >= 0) || !is_flat_line(before) || !is_flat_line(after)) return;
   const Vector3 a = before.end_mm - before.start_mm, b = after.end_mm - after.start_mm;
   const double turn = std::atan2(a.cross(b).norm(), a.dot(b));
   if (a.isZero(0) || b.isZero(0) || turn > sharpest) return;
-  double taken = size.mm;
-  if (size.kind == CornerKind::round) taken *= std::tan(turn / 2);
-  if (size.kind == CornerKind::chamfer) taken /= 2 * std::cos(turn / 2);
-  ends_of(before).end_mm = ends_of(after).begin_mm = taken;
-  before.corners->end_is_round = size.kind == CornerKind::round;
+  before.corners->end_mm = ends_of(after).begin_mm = taken_by_corner(size.kind, size.mm, turn);
   // Behind its first, flat part the block may have another height.
   if (after.corners->end_mm == 0) after.takes_no_z = !changes_height_inside(after);
+}
+
+double taken_by_corner(CornerKind kind, double size, double turn) {
+  if (kind == CornerKind::round) return size * std::tan(turn / 2);
+  return kind == CornerKind::chamfer ? size / (2 * std::cos(turn / 2)) : size;
 }
 
 }  // namespace counterflex

@@ -5,23 +5,12 @@
 
 namespace counterflex {
 
-enum class CornerKind {
-  round,    ///< by its radius
-  side,     ///< a chamfer by the length removed from both sides
-  chamfer,  ///< a chamfer by its own length
-};
-
-struct CornerSize {
-  double mm = 0;  ///< NaN: not a plain number
-  CornerKind kind = CornerKind::round;
-};
-
 /// Marks a corner behind or before the move. Its length is unknown yet.
 void expect_corner_behind(Move& move);
 void expect_corner_before(Move& move);
 
 /// Sets the length that the corner between two consecutive moves removes from each of them, if both are lines
-/// in a plane across Z and the size is a number.
+/// in a plane across Z and the size is a number; keeps the size.
 void place_corner(const CornerSize& size, Move& before, Move& after);
 
 }  // namespace counterflex

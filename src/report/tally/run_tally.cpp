@@ -75,6 +75,33 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     if (w.status == Status::converged) add_to_travel(w, window, fraction_before(before, w));
     before = &w;
   }
+  list_corners(waypoints, window);
+}
+
+namespace {
+
+std::string words_of_corner(const CornerSize& size, double miss) {
+  const bool is_round = size.kind == CornerKind::round, is_known = size.mm >= 0;
+  return fmt::format(
+      "the {} at its end misses by up to {:.4f} mm{}: the control puts it between corrected lines, and it is "
+      "not "
+      "corrected itself; write it as {}, or make it smaller",
+      is_round ? "rounding" : "chamfer", miss / mm, is_known ? "" : " (size not known, as large as fits)",
+      is_round ? "an arc" : "a line");
+}
+
+}  // namespace
+
+void RunTally::list_corners(const std::vector<Waypoint>& waypoints, const Job& window) {
+  for (auto w = waypoints.begin(); w != waypoints.end();) {
+    const std::size_t move = w->move;
+    double worst = 0;
+    for (; w != waypoints.end() && w->move == move; ++w)
+      if (w->in_corner && !w->insignificant) worst = std::max(worst, position_miss(window, *w));
+    if (worst <= window.options.tolerance) continue;
+    const Move& before = window.program.moves[move];
+    list(left_alone_, LeftAlone{before.line, words_of_corner(before.corners->end_size, worst)});
+  }
 }
 
 void RunTally::add_as_programmed(const Waypoint& w, bool cuts) {
