@@ -124,6 +124,11 @@ bool ends_displacement(Reading& r, const GCode& code) {
   return !presets || (named_axes(r) & linear) == linear;
 }
 
+/// G92 S2000 of shop controls: the highest speed of the spindle.
+bool limits_speed(const Reading& r, const GCode& code) {
+  return code.tenths == 920 && r.dialect.macro_words && r.sorted.word('S') != nullptr && named_axes(r) == 0;
+}
+
 void end_displacements(Reading& r) {
   for (const FoundG& g : r.sorted.g) {
     if (g.code->action != Action::end_displace || (r.state.displaced & g.code->bit) == 0) continue;
@@ -244,6 +249,7 @@ void apply_displacements(const Block& block, Reading& r) {
   end_displacements(r);
   bool followed = false;
   for (const FoundG& g : r.sorted.g) {
+    if (limits_speed(r, *g.code)) continue;
     if (apply_frame_code(block, r, *g.code)) {
       followed = true;
       continue;

@@ -289,6 +289,37 @@ TEST_CASE("G100 and G101 of Haas mirror about their words and do not move") {
   CHECK(read(known_start_block + "G1 X1.\nG101 X0\nX2.\n", "haas").moves.size() == 3);
 }
 
+TEST_CASE("codes that only Haas has are unknown on a Fanuc, and so is G100 with a tool of Brother") {
+  const auto followed = [](const std::string& block, const char* dialect) {
+    const Program program = read(known_start_block + block + "\nX2. Y2. Z2.\nX3.\n", dialect);
+    return !stays(program.moves.back());
+  };
+  for (const char* block : {"G100 X0.", "G101 X0.\nG50.1", "G103 P1", "G187 P1"}) {
+    CAPTURE(block);
+    CHECK_FALSE(followed(block, "fanuc"));
+  }
+  CHECK(followed("G103 P1", "haas"));
+  CHECK(followed("G187 P1", "haas"));
+  const std::string change = "G100 T2 X100. Y200. G43 Z50. H2";
+  CHECK_FALSE(followed(change, "fanuc"));
+  CHECK_FALSE(followed(change, "haas"));
+  CHECK(stays(read("O1\n" + known_start_block + change + "\nX2. Y2. Z2.\nX3.\n").moves.back()));
+}
+
+TEST_CASE("G5 of Fanuc switches modes, and moves axes with P10001 to P10999") {
+  const auto position_known = [](const std::string& words) {
+    return read(known_start_block + "G05 " + words + "\nX2.\n", "fanuc").moves.back().known_end[1];
+  };
+  for (const char* words : {"P0", "P1", "P2", "P10000"}) CHECK(position_known(words));
+  for (const char* words : {"P10001", "P10999 L2", "P#1"}) CHECK_FALSE(position_known(words));
+}
+
+TEST_CASE("G92 with S and without an axis limits the speed of the spindle and sets no position") {
+  const Program program = read(known_start_block + "G92 S2000\nG1 X1. F100.\n", "fanuc");
+  CHECK_FALSE(stays(program.moves.back()));
+  CHECK(program.moves.back().frame == program.moves.front().frame);
+}
+
 TEST_CASE("G92.1 of Fanuc presets the named axes to the work offset and does not move") {
   const Program program = read(known_start_block + "G92 X5. Y6. Z7.\nG92.1 X0. Z0.\nG1 X1.\nY3.\n", "fanuc");
   REQUIRE(program.moves.size() == 4);

@@ -142,9 +142,9 @@ constexpr std::array g_codes{
     GCode{970, Action::spindle_speed, CodeGroup::spindle},
     GCode{980, Action::initial_level, CodeGroup::retract},
     GCode{990, Action::retract_level, CodeGroup::retract},
-    GCode{1000, Action::end_displace, CodeGroup::none, {}, shop_families, mirrored},
-    GCode{1010, Action::displace, CodeGroup::none, "mirroring", shop_families, mirrored},
-    GCode{1030, Action::state, CodeGroup::none, {}, shop_families},
+    GCode{1000, Action::end_displace, CodeGroup::none, {}, haas_family, mirrored},
+    GCode{1010, Action::displace, CodeGroup::none, "mirroring", haas_family, mirrored},
+    GCode{1030, Action::state, CodeGroup::none, {}, haas_family},
     GCode{1100, Action::work_offset, CodeGroup::offset, {}, haas_family},
     GCode{1110, Action::work_offset, CodeGroup::offset, {}, haas_family},
     GCode{1120, Action::displace, CodeGroup::none, points_of_turning, fanuc_family, polar},
@@ -170,7 +170,7 @@ constexpr std::array g_codes{
     GCode{1430, Action::displace, CodeGroup::tool_length, points, shop_families, tool_point},
     GCode{1500, Action::own_way, CodeGroup::none, {}, shop_families},
     GCode{1540, Action::work_offset, CodeGroup::offset, {}, shop_families},
-    GCode{1870, Action::smooth, CodeGroup::none, {}, shop_families},
+    GCode{1870, Action::smooth, CodeGroup::none, {}, haas_family},
     GCode{2340, Action::displace, CodeGroup::tool_length, points, shop_families, tool_point},
 };
 

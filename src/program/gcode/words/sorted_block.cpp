@@ -39,6 +39,25 @@ bool is_unit_code(const Sorter& s, int tenths) {
          std::none_of(words.begin(), words.end(), [](const Word& word) { return word.letter == 'I'; });
 }
 
+/// G100 with a tool is a tool change of Brother controls, which moves.
+bool changes_tool(const Sorter& s, int tenths) {
+  const auto& words = s.block.words;
+  return tenths == 1000 && s.dialect.macro_words &&
+         std::any_of(words.begin(), words.end(), [](const Word& word) { return word.letter == 'T'; });
+}
+
+/// G5 P10001 to P10999 of Fanuc run stored high-speed cycles, which move axes. Other numbers switch modes.
+bool runs_stored_cycle(const Sorter& s, int tenths) {
+  constexpr double high_precision = 10000;
+  if (tenths != 50 || !s.dialect.macro_words) return false;
+  const auto& words = s.block.words;
+  const auto p =
+      std::find_if(words.begin(), words.end(), [](const Word& word) { return word.letter == 'P'; });
+  return p != words.end() && (!p->literal || p->value > high_precision);
+}
+
+constexpr GCode stored_cycle{50, Action::own_way};
+
 const GCode* code_of(const Sorter& s, const Word& word) {
   const double tenths = word.value * 10;
   // A control with the code of an unsupported option knows its meaning.
@@ -47,6 +66,8 @@ const GCode* code_of(const Sorter& s, const Word& word) {
   const int nearest = static_cast<int>(tenths + 0.5);
   if (std::abs(tenths - nearest) >= 1e-6) return nullptr;
   if (is_unit_code(s, nearest)) return find_g_code(nearest == 700 ? 200 : 210, s.dialect);
+  if (changes_tool(s, nearest)) return &unknown_g_code();
+  if (runs_stored_cycle(s, nearest)) return &stored_cycle;
   const GCode* const found = find_g_code(nearest, s.dialect);
   return found != nullptr ? found : otherwise;
 }
