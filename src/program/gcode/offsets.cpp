@@ -224,13 +224,17 @@ void apply_tool_length(const Block& block, Reading& r) {
   if (length_mm && plain && found->code->tenths == 440) *length_mm = -*length_mm;
   // Shop controls add relative Z to the programmed position, independent of the length.
   const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
-  if (length_mm && state.tool_length_mm)
+  const bool changes = length_mm != state.tool_length_mm;
+  // In a block without Z a shop control moves Z by the change, or shifts the coordinates: Fanuc parameter
+  // 5006#6.
+  if (length_mm && state.tool_length_mm && changes && r.dialect.macro_words)
+    state.known[2] = false;
+  else if (length_mm && state.tool_length_mm)
     state.position_mm.z() += *state.tool_length_mm - *length_mm;
   else if ((!number || number != state.tool_length) && !counts_on)
     state.known[2] = false;
 
-  if (!number || number != state.tool_length || length_mm != state.tool_length_mm)
-    state.cycle.initial.reset();
+  if (!number || number != state.tool_length || changes) state.cycle.initial.reset();
   state.tool_length = number;
   state.tool_length_mm = length_mm;
   if (!length_mm) remark_tool_length(block, r);

@@ -66,6 +66,18 @@ TEST_CASE("with known tool lengths Z shifts by their difference and stays known"
   CHECK(program.remarks[0].line == 9);
 }
 
+TEST_CASE("on shop controls Z is not known behind a change between known tool lengths without Z") {
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 50}, {2, 60}};
+  const auto known = [&](const std::string& blocks) {
+    const Program program =
+        read_program("O1\nG21 G90 G49 G0 X0. Y0. Z100.\nG43 H1 Z10.\n" + blocks + "\nX1.\n", "", options);
+    return program.moves.back().known_end[2];
+  };
+  for (const char* blocks : {"G43 H2", "G49", "G44 H1", "G49 X2.", "H2"}) CHECK_FALSE(known(blocks));
+  for (const char* blocks : {"G43 H1", "G43 H2 Z5.", "G49\nZ5."}) CHECK(known(blocks));
+}
+
 TEST_CASE("T and M6 load a tool, T alone does not") {
   const Program program = read("G21 T3 G0 X1\nM6\nX2\nT5\nX3\n");
   CHECK(program.moves[0].tool == 0);
