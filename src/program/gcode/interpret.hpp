@@ -55,8 +55,9 @@ struct Reading {
   std::size_t turns = 0;                       ///< turns of all arcs so far; each arc counts at least one
   double turned_mm = 0;                        ///< length of their full turns
   std::map<std::string, SetOffset> offsets{};  ///< by name
-  Variables variables{};                       ///< variables with known values, see `evaluate_words`
-  CallNames declared{};                        ///< by DEF and PROC of a Sinumerik, in upper case
+  BeginOfProgram begin{};
+  Variables variables{};                     ///< variables with known values, see `evaluate_words`
+  CallNames declared{};                      ///< by DEF and PROC of a Sinumerik, in upper case
   std::optional<Word> angle{};               ///< ANG= of the block's line, which gives one of two coordinates
   std::optional<CalledCycle> called{};       ///< by MCALL, at every position
   std::string last_reason{};                 ///< reason of the last uncorrected block

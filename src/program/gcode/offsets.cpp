@@ -146,9 +146,13 @@ bool sets_offset(const Word* l) {
   return l != nullptr && l->literal && (l->value == 2 || l->value == 20);
 }
 
-void lose_tool_lengths(Reading& r) {
+void lose_active_length(Reading& r) {
   r.state.tool_length.reset();
   r.state.tool_length_mm.reset();
+}
+
+void lose_tool_lengths(Reading& r) {
+  lose_active_length(r);
   r.lengths_set = true;
 }
 
@@ -169,8 +173,41 @@ bool may_be_offset(std::string_view variable, const Reading& r) {
   return *number > last_output && (*number < first_alarm || *number > last_alarm);
 }
 
-bool sets_tools(const Word* l) {
-  return l != nullptr && l->literal && (l->value == 1 || (l->value >= 10 && l->value <= 13));
+/// G10 without L sets a tool offset of shop controls.
+bool sets_tools(const Reading& r, const Word* l) {
+  if (l == nullptr) return r.dialect.macro_words && r.sorted.word('R') != nullptr;
+  return l->literal && (l->value == 1 || (l->value >= 10 && l->value <= 13));
+}
+
+/// Whether G10 may set the length of a tool. Shop controls have the radius in L12 and L13, others in R.
+bool sets_tool_length(const Reading& r, const Word* l) {
+  if (!r.dialect.macro_words) return r.sorted.word('Z') != nullptr;
+  return l == nullptr || l->value < 12;
+}
+
+/// Whether G10 sets the length of the tool to `given_mm`: L10 of shop controls, L1 of others.
+bool sets_same_length(const Reading& r, const Word* l, double given_mm) {
+  constexpr double rounding_mm = 1e-6;
+  const Word* length = r.sorted.word(r.dialect.macro_words ? 'R' : 'Z');
+  const double direct = r.dialect.macro_words ? 10 : 1;
+  return l != nullptr && l->value == direct && length != nullptr && length->literal && r.state.unit &&
+         !r.state.relative && std::abs(length_mm(r, *length) - given_mm) <= rounding_mm;
+}
+
+/// Refuses a G10 that contradicts the given lengths, which the model has for the whole program.
+void refuse_other_lengths(const Block& block, const Reading& r, const Word* l) {
+  if (!sets_tool_length(r, l)) return;
+  const Word* p = r.sorted.word('P');
+  for (const auto& [tool, given_mm] : r.options.tool_lengths_mm) {
+    const bool of_tool = p == nullptr || !p->literal || count_of(*p) == tool;
+    if (!of_tool || sets_same_length(r, l, given_mm)) continue;
+    refuse_word(
+        block, r, *r.sorted.find(Action::set_data)->word,
+        fmt::format("G10 may set the length of T{}, which is given as {:.6g} mm; give the length that "
+                    "the program sets ([tools.T{}], --tool-table or --tool-length), or remove the "
+                    "block",
+                    tool, given_mm, tool));
+  }
 }
 
 }  // namespace
@@ -299,8 +336,9 @@ void apply_set_data(const Block& block, Reading& r) {
                    sets_one && l->value == 20
                        ? "G10 L20 sets a work offset by the position of the tool, which is not followed"
                        : "G10 sets offsets or tools");
-  if (sets_tools(l)) {
-    lose_tool_lengths(r);
+  if (sets_tools(r, l)) {
+    refuse_other_lengths(block, r, l);
+    if (sets_tool_length(r, l)) lose_active_length(r);
     return;
   }
   if (!sets_offset(l)) return;

@@ -112,6 +112,9 @@ void remark_tool_length(const Block& block, Reading& reading) {
   if (tool <= 0)
     return add_remark(reading.program, block.line,
                       code + ": the tool and its length are not known; the tip of [tool] is used");
+  if (reading.lengths_set)
+    return add_remark(reading.program, block.line,
+                      fmt::format("{}: a variable or G10 before may have set the length of T{}", code, tool));
   add_remark(reading.program, block.line,
              fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give length_mm in "
                          "[tools.T{}], --tool-table, or --tool-length T{}=MM)",

@@ -100,9 +100,31 @@ TEST_CASE("G10 for another work offset applies when that offset is selected") {
 TEST_CASE("G10 for tools makes their known lengths invalid") {
   ReadOptions options;
   options.tool_lengths_mm = {{1, 50}};
-  const Program program =
-      read_program(known_start_block + "G49\nZ1\nG10 L1 P1 Z30\nG43 H1\nX1\n", "", options);
-  CHECK_FALSE(program.moves.back().known_start[2]);
+  const auto read_with = [&](const std::string& block, const std::string& dialect = "linuxcnc") {
+    options.dialect = dialect;
+    return read_program(known_start_block + block + "\nG43 H1 Z2.\nX1.\n", "p.nc", options);
+  };
+  const auto refusal = [&](const std::string& block, const std::string& dialect = "linuxcnc") {
+    const std::string message = diagnostic_of([&] { read_with(block, dialect); });
+    return message.find("may set the length of T1, which is given as 50 mm") != std::string::npos;
+  };
+  CHECK(refusal("G10 L1 P1 Z30"));
+  CHECK(refusal("G10 L1 P#1 Z30"));
+  CHECK(refusal("G10 L11 P1 Z50"));
+  CHECK(refusal("G10 L1 P1 Z30", "mach3"));
+  for (const char* words : {"L10 P1 R150.", "P1 R300.", "L1 P1 R50.", "L11 P1 R1.", "L10 P#1 R60."}) {
+    CAPTURE(words);
+    CHECK(refusal(std::string("G10 ") + words, "fanuc"));
+  }
+  CHECK(refusal("G91 G10 L10 P1 R50.\nG90", "fanuc"));
+  // The same length, a radius, or another tool.
+  for (const char* words : {"L10 P1 R50.", "L12 P1 R5.", "L10 P2 R60."}) {
+    CAPTURE(words);
+    const Program program = read_with(std::string("G10 ") + words, "fanuc");
+    CHECK(program.remarks.empty());
+    CHECK(program.moves.back().known_end[2]);
+  }
+  CHECK(read_with("G10 L1 P1 Z50").remarks.empty());
 }
 
 TEST_CASE("parameters between G10 L50 and G11 do not move") {
