@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <utility>
 
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -115,6 +116,16 @@ bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
   }
   change_frame(r);
   if (!first) add_set_position(block, r);
+  return true;
+}
+
+/// G92. On shop controls it ends G52 of the axes that it names.
+bool set_position_by_words(const Block& block, Reading& r) {
+  FrameShifts& shifts = r.state.shifts;
+  if (!move_zero(block, r, shifts.set_mm)) return false;
+  for (std::size_t axis = 0; r.dialect.macro_words && axis < 3; ++axis)
+    if (axis_word(r, axis) != nullptr)
+      coordinate(shifts.set_mm, axis) += std::exchange(coordinate(shifts.local_mm, axis), 0.0);
   return true;
 }
 
@@ -298,7 +309,7 @@ bool apply_frame_code(const Block& block, Reading& r, const GCode& code) {
     case 690:
       return r.state.shifts.turn_rad != 0 && end_turn(r);
     case 920:
-      return is_plain(block, r, "") && move_zero(block, r, r.state.shifts.set_mm);
+      return is_plain(block, r, "") && set_position_by_words(block, r);
     case 921:
       if (r.dialect.macro_words && r.sorted.has_any("XYZ")) return preset(block, r);
       return !r.state.shifts.set_mm.isZero(0) && end_set_position(block, r);

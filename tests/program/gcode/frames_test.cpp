@@ -223,6 +223,15 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("G92 of shop controls ends G52 of the axes that it names") {
+  for (const char* dialect : {"fanuc", "haas"}) {
+    const Program program = read(
+        frames_start + "G52 X100. Y50. Z0.\nX20. Y0.\nG92 X0.\nG52 X0. Y0. Z0.\nX200. Y0. Z1.\n", dialect);
+    CHECK(followed(program));
+    CHECK((end_in_offset(program) - Vector3(320, 0, 1)).norm() < 1e-9);
+  }
+}
+
 TEST_CASE("G10 L20 of an offset that does not act is unknown only where this offset is selected") {
   const std::string text = frames_start + "G10 L20 P2 X5. Y5. Z5.\nG1 X5. Y2. Z7.\n";
   for (const char* dialect : {"linuxcnc", "grbl"}) {
