@@ -68,6 +68,11 @@ struct Dialect {
   RadiusRoom radius_room_inch{0.00283 * 25.4, 0.283 * 25.4};
 };
 
+/// Whether P (TURN= of a Sinumerik) is the number of turns of an arc.
+constexpr bool arcs_have_turns(const Dialect& dialect) {
+  return (dialect.family & (linuxcnc_family | grbl_family | siemens_family)) != 0;
+}
+
 /// The name of Heidenhain Klartext, which is not G-code.
 inline constexpr std::string_view klartext_name = "heidenhain";
 

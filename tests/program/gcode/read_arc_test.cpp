@@ -71,6 +71,15 @@ TEST_CASE("a helix keeps its height, P is the number of its turns") {
   CHECK(sweep_of(helix) == doctest::Approx(5 * half_turn));
 }
 
+TEST_CASE("P of an arc is the number of its turns in LinuxCNC and GRBL only") {
+  const std::string arc = "G21 G90 G0 X0. Y0. Z0.\nG2 X0. Y0. I10. Z-15. F100. P3\n";
+  CHECK(read(arc, "grbl").moves.back().arc->turns == 2);
+  for (const char* dialect : {"fanuc", "haas", "mach3"})
+    CHECK(diagnostic_of([&] { read(arc, dialect); }) == "p.ngc:2:29: error: no code in the block uses P");
+  const Program offset = read("O1\nG21 G90 G54.1 P3 G0 X0. Y0. Z0.\nG54.1 P3 G2 X10. Y0. I5. F100.\n");
+  CHECK(offset.moves.back().arc->turns == 0);
+}
+
 TEST_CASE("under G90.1 centres are coordinates, under G91.1 and G91 they are relative to the start") {
   CHECK(last_arc("G1 X5.\nG90.1 G2 X15. Y0 I10. J0").arc->centre_mm == Vector3(10, 0, 0));
   CHECK(last_arc("G1 X5.\nG90.1\nG91.1 G2 X15. Y0 I5. J0").arc->centre_mm == Vector3(10, 0, 0));

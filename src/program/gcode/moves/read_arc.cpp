@@ -35,10 +35,14 @@ bool is_plain(const Word* word) {
   return word == nullptr || word->literal;
 }
 
-bool words_are_plain(const SortedBlock& sorted) {
-  for (const char letter : {'I', 'J', 'K', 'R', 'P'})
-    if (!is_plain(sorted.word(letter))) return false;
-  return true;
+const Word* word_of_turns(const Reading& r) {
+  return arcs_have_turns(r.dialect) ? r.sorted.word('P') : nullptr;
+}
+
+bool words_are_plain(const Reading& r) {
+  for (const char letter : {'I', 'J', 'K', 'R'})
+    if (!is_plain(r.sorted.word(letter))) return false;
+  return is_plain(word_of_turns(r));
 }
 
 /// Refuses words that are an arc on no control.
@@ -60,7 +64,7 @@ void check_words(const Block& block, const Reading& r) {
   if (across != nullptr && across->literal && across->value != 0 && !ignored)
     refuse_word(block, r, *across,
                 fmt::format("{} is not a centre word of an arc in the active plane", across->letter));
-  const Word* turns = r.sorted.word('P');
+  const Word* turns = word_of_turns(r);
   if (turns != nullptr && turns->literal && (turns->value < 1 || turns->value != std::floor(turns->value)))
     refuse_word(block, r, *turns,
                 fmt::format("P{} is not a number of turns: expected an integer from 1", turns->value));
@@ -196,7 +200,7 @@ std::optional<ArcMove> arc_of(const Block& block, const Reading& r, const Move& 
   arc.normal = r.state.normal;
   arc.clockwise = r.state.motion == MotionMode::clockwise;
   arc.centre_mm[arc.normal] = move.start_mm[arc.normal];
-  if (const Word* p = r.sorted.word('P')) arc.turns = static_cast<int>(count_of(*p) - 1);
+  if (const Word* p = word_of_turns(r)) arc.turns = static_cast<int>(count_of(*p) - 1);
   const Plane plane = plane_of(arc.normal);
   if (r.sorted.word('R') == nullptr) {
     set_centre(block, r, plane, move, arc);
@@ -220,7 +224,7 @@ void hold_arc(Reading& r, Move& move, const Plane& plane, bool start_known) {
 
 std::string_view why_unknown(const Reading& r, bool start_known) {
   if (!start_known) return "the start of the arc is not known";
-  if (words_are_plain(r.sorted)) return "the arc is not known";
+  if (words_are_plain(r)) return "the arc is not known";
   return r.options.evaluate
              ? "the centre, radius or number of turns of the arc is a variable or an expression "
                "whose value is not known from the text"
@@ -237,14 +241,14 @@ void count_turns(const Block& block, Reading& r, const ArcMove& arc, const Vecto
   arm[arc.normal] = 0;
   r.turned_mm += 2 * std::numbers::pi * arm.norm() * arc.turns;
   if (r.turned_mm > most_turned_mm)
-    refuse_word(block, r, *r.sorted.word('P'),
+    refuse_word(block, r, *word_of_turns(r),
                 fmt::format("the full turns of the arcs up to here are {:.0f} m long: at most {:.0f} m are "
                             "allowed; write each turn as "
                             "a block",
                             r.turned_mm / 1000, most_turned_mm / 1000));
   if (r.turns <= r.program.block_count + more_turns_than_blocks) return;
   refuse_word(
-      block, r, *r.sorted.word('P'),
+      block, r, *word_of_turns(r),
       fmt::format(
           "the arcs up to here have {} turns in {} blocks: at most {} turns more than blocks are allowed; "
           "write each turn as a block",
@@ -262,7 +266,7 @@ void read_arc(const Block& block, Reading& r) {
   const bool start_known = move.known_start[plane.first] && move.known_start[plane.second];
   const bool end_known = r.state.known[plane.first] && r.state.known[plane.second];
   const bool resolved =
-      followed && start_known && end_known && words_are_plain(r.sorted) && !centre_is_mixed(r, plane);
+      followed && start_known && end_known && words_are_plain(r) && !centre_is_mixed(r, plane);
   if (resolved) move.arc = arc_of(block, r, move);
   if (move.arc) count_turns(block, r, *move.arc, move.start_mm);
   if (!move.arc) {

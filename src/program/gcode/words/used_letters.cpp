@@ -11,7 +11,7 @@ constexpr Letters letters(std::string_view list) {
 
 constexpr Letters all = ~Letters{0};
 constexpr Letters always = letters("ABCFNOSTUVWXYZ");
-constexpr Letters of_arcs = letters("IJKPR");
+constexpr Letters of_arcs = letters("IJKR");
 constexpr Letters of_cycles = letters("DEHIJKLPQR");
 
 /// One case per action: this is a table.
@@ -101,6 +101,8 @@ Letters used_letters(const SortedBlock& sorted, const Dialect& dialect, Context 
   Letters used = always;
   if (dialect.h_and_d_are_modal) used |= letters("DH");
   if (context == Context::arc) used |= of_arcs;
+  const bool arc = context == Context::arc || sorted.has(Action::arc);
+  if (arc && arcs_have_turns(dialect)) used |= letters("P");
   if (context == Context::cycle) used |= of_cycles;
   for (const FoundG& g : sorted.g) used |= used_by(g.code->action) | used_by_state(g.code->tenths);
   for (const FoundM& m : sorted.m) used |= used_by(m);
