@@ -145,6 +145,20 @@ TEST_CASE("a cycle without holes stores its words and does not move") {
   CHECK(program.moves[2].cycle->bottom_mm == -5);
 }
 
+TEST_CASE("the position in X and Y is not known behind a cycle without holes") {
+  const std::string start = "O1\nG21 G90 G0 X0. Y0. Z10.\nG81 Z-5. R1. F100. ";
+  CHECK_FALSE(read(start + "X20. Y50. K0\nX30.\n", "fanuc").moves.back().known_end[1]);
+  CHECK(read(start + "X20. Y50. K0\nX30. Y50.\n", "fanuc").moves.back().known_end[1]);
+  CHECK(read(start + "X20. L0\nX30.\n", "haas").moves.back().known_end[1]);
+}
+
+TEST_CASE("RS274/NGC refuses a cycle without holes") {
+  for (const char* dialect : {"linuxcnc", "grbl", "mach3"})
+    CHECK(diagnostic_of([&] { read("G21 G90 G0 X0 Y0 Z5\nG81 X5 Z-1 R1 F50 L0\n", dialect); }) ==
+          "p.ngc:2:19: error: L0 is not a number of repeats: expected an integer from 1; program Z and R in "
+          "the first block with a hole");
+}
+
 TEST_CASE("a cycle is not followed if the count of its repeats is not one that a control takes") {
   for (const char* count : {"L10000", "L2.5", "L-1"}) {
     CAPTURE(count);

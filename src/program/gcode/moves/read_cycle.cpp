@@ -159,6 +159,16 @@ void fix_hole(Reading& r, Move& move, bool turned) {
   forget_places(r, move);
 }
 
+/// Without a hole, whether the control moves to X and Y is not known. RS274/NGC refuses zero repeats.
+void read_no_holes(const Block& block, Reading& r) {
+  if (!r.dialect.macro_words)
+    refuse_word(block, r, *r.sorted.word('L'),
+                "L0 is not a number of repeats: expected an integer from 1; program Z and R in the first "
+                "block with a hole");
+  for (std::size_t axis = 0; axis < 2; ++axis)
+    if (r.sorted.word(letters_of_axes[axis]) != nullptr) r.state.known[axis] = false;
+}
+
 std::string_view why_hole_stays(const Reading& r, bool turned) {
   if (r.state.normal != 2) return "cycles are corrected in G17 only";
   if (plain_words(r) && !repeats_of(r)) return "the count of its repeats is not an integer from 0 to 9999";
@@ -188,7 +198,10 @@ void read_cycle(const Block& block, Reading& r) {
   hole.bottom_word = axis_word(r.sorted.word('Z'));
   hole.retract_word = axis_word(r.sorted.word('R'));
   set_levels(state, hole);
-  if (hole.repeats > 0) place_hole(r, move, hole.repeats, why.empty());
+  if (hole.repeats > 0)
+    place_hole(r, move, hole.repeats, why.empty());
+  else
+    read_no_holes(block, r);
   const bool followed =
       why.empty() && plain_words(r) && repeats && state.normal == 2 && state.cycle.bottom && !turned;
   if (hole.repeats > 0) set_height_after_hole(state, hole);
