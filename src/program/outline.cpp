@@ -53,11 +53,15 @@ bool is_number_at(std::string_view text, std::size_t o) {
   return o + 1 < text.size() && is_digit(text[o + 1]) && begins_line(text, o);
 }
 
-/// Lines that begin with an O-number, in order.
+/// Lines that begin with an O-number or ":1000", in order.
 std::vector<std::size_t> numbers_in(std::string_view lines) {
   std::vector<std::size_t> numbers;
   for (std::size_t at = 0; (at = find_either(lines, 'O', 'o', at)) != std::string_view::npos; ++at)
     if (is_number_at(lines, at)) numbers.push_back(at);
+  const auto others = static_cast<std::ptrdiff_t>(numbers.size());
+  for (std::size_t at = 0; (at = lines.find(':', at)) != std::string_view::npos; ++at)
+    if (is_number_at(lines, at)) numbers.push_back(at);
+  std::inplace_merge(numbers.begin(), numbers.begin() + others, numbers.end());
   return numbers;
 }
 
@@ -106,6 +110,7 @@ std::string program_defined_in(std::string_view line, const Dialect& dialect) {
   if (dialect.sinumerik_words) return upper_case(sinumerik_program_in(line));
   std::string code = upper_case(line.substr(0, line.find_first_of("(;")));
   std::erase_if(code, [](char c) { return is_blank(c) || c == '\r'; });
+  if (dialect.percent_names && code.starts_with(':')) code[0] = 'O';
   if (!code.starts_with('O') || (dialect.o_words && !code.ends_with("SUB"))) return {};
   if (code.starts_with("O<")) return code.substr(2, code.find('>') - 2);
   const std::size_t begin = std::min(code.find_first_not_of('0', 1), code.size());
@@ -204,7 +209,7 @@ Outline OutlineScan::finish() {
 }
 
 bool is_numbered(std::string_view line) {
-  const std::size_t o = line.find_first_of("Oo");
+  const std::size_t o = line.find_first_of("Oo:");
   return o != std::string_view::npos && is_number_at(line, o);
 }
 

@@ -9,8 +9,8 @@
 namespace counterflex {
 namespace {
 
-/// The first letter of a line, behind blanks and the N of an O line; 0 if the line begins with another
-/// character.
+/// The first letter of a line, behind blanks and the N of an O line; 'O' for the ':' of ":1000"; 0 if the
+/// line begins with another character.
 char first_letter(std::string_view line) {
   std::size_t at = 0;
   const auto skip = [&](auto of_kind) {
@@ -23,7 +23,8 @@ char first_letter(std::string_view line) {
     skip(is_blank);
     if (at == line.size() || upper(line[at]) != 'O') return 'N';
   }
-  return at < line.size() ? upper(line[at]) : '\0';
+  if (at == line.size()) return '\0';
+  return line[at] == ':' ? 'O' : upper(line[at]);
 }
 
 std::string number_text(const Word& word) {

@@ -75,6 +75,10 @@ TEST_CASE("a call by M98 is replaced by its body") {
   check_same({"linuxcnc", go, "n7 m98 p1001 l2 (both)\n", "n7 (both)\n" + body + body, end});
 }
 
+TEST_CASE("a subprogram may begin with ':' and its number") {
+  check_same({"fanuc", fanuc_go, "M98 P1000\n", "G1 X20.\n", "M30\n:1000\nG1 X20.\nM99\n"});
+}
+
 TEST_CASE("P31001 means O1001 three times to a Fanuc, and O31001 to a Haas") {
   const std::string end = "M30\nO1001\nX1.\nM99\nO31001\nX3.\nM99\n";
   check_same({"haas", fanuc_go, "M98 P31001\n", "X3.\n", end});

@@ -138,6 +138,7 @@ TEST_CASE("numbered subprograms before or behind a program end at M99") {
   CHECK(is_fixed(before.moves[0]));
   CHECK_FALSE(is_fixed(before.moves[1]));
   CHECK(is_fixed(before.moves[2]));
+  CHECK(is_fixed(read(":2\n" + sub + ":1\n" + main).moves[0]));
   // A single program repeats itself.
   CHECK(fixed_moves("X1.\nM99\n", "fanuc") == Fixed{false});
 }
