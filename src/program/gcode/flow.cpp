@@ -117,6 +117,62 @@ void call(const Block& block, Reading& r, const std::string& program) {
   read_call(block, r, program);
 }
 
+bool sets(const Reading& r, CodeGroup group) {
+  return (r.begin.groups >> static_cast<unsigned>(group) & 1) != 0;
+}
+
+/// The coordinates at the end of the program that its begin does not set again; empty if there are none.
+std::string_view coordinates_left(const Reading& r) {
+  const FrameShifts& shifts = r.state.shifts;
+  unsigned left = r.state.displaced;
+  if (!shifts.local_mm.isZero(0)) left |= shifted;
+  if (!shifts.set_mm.isZero(0)) left |= set_position;
+  if (shifts.turn_rad != 0) left |= rotated;
+  left &= ~unsigned{r.begin.ended};
+  if ((left & shifted) != 0) return "G52 shifts the coordinates";
+  if ((left & set_position) != 0 || r.begin.takes_position) return "G92 has set the position";
+  if ((left & rotated) != 0) return "the coordinates are rotated";
+  if ((left & data) != 0 || r.state.offsets_set != 0 || r.offsets != r.begin.offsets)
+    return "G10 has changed a work offset";
+  const auto moved = [](const auto& offset) { return !offset.second.moved_mm.isZero(0); };
+  if (std::ranges::any_of(r.offsets, moved)) return "G10 L20 has changed a work offset";
+  return left != 0 ? "the coordinates are not those of the work offset" : std::string_view();
+}
+
+/// The state at the end of the program with which a repetition would differ from the first pass; empty if
+/// there is none.
+std::string_view state_left(const Reading& r) {
+  const ModalState& state = r.state;
+  const auto left = [&](CodeGroup group, bool differs, unsigned doubt) {
+    return !sets(r, group) && (differs || (state.unknown_modes & doubt) != 0);
+  };
+  const std::string& offset = r.program.frames[state.frame].work_offset;
+  if (const std::string_view coordinates = coordinates_left(r); !coordinates.empty()) return coordinates;
+  if (left(CodeGroup::offset, !offset.empty() && offset != "G54", unknown_offset))
+    return "the work offset is not G54";
+  if (left(CodeGroup::distance, state.relative, unknown_distance)) return "G91 is active";
+  if (left(CodeGroup::unit, state.unit != r.options.unit, unknown_unit)) return "the unit is another one";
+  if (left(CodeGroup::plane, state.normal != 2, unknown_plane)) return "G17 is not active";
+  if (left(CodeGroup::arc, state.absolute_centres != r.options.absolute_centres, unknown_centres))
+    return "the centres of arcs are read in another way";
+  if (left(CodeGroup::cutter, state.contour == Contour::inside, unknown_cutter))
+    return "G41 or G42 is active";
+  return !r.begin.changes_tool && state.tool != 0 ? "the tool was changed" : std::string_view();
+}
+
+/// M99 and M47 of a main program repeat it without its first state.
+void check_repetition(const Block& block, const Reading& r) {
+  const std::string_view why = state_left(r);
+  if (why.empty()) return;
+  for (const FoundM& m : r.sorted.m)
+    if (m.action == MAction::return_from_call)
+      refuse_word(block, r, *m.word,
+                  fmt::format("M{} repeats the program, but at its end {}, which the blocks before its first "
+                              "move do not set again: the second pass cuts at another place; set this state "
+                              "before the first move, or end with M30",
+                              m.code, why));
+}
+
 struct FlowLine {
   std::string name;
   std::string_view keyword;
@@ -197,11 +253,27 @@ void read_program_number(const Block& block, Reading& r) {
   if (subprogram) open_subprogram(r, std::string(subprogram_by_number));
 }
 
-void return_from_call(Reading& r) {
+void note_begin_of_program(const Block& block, Reading& r) {
+  if (r.program.before || r.in_body() || !empty(block.block_delete)) return;
+  if (r.sorted.has(MAction::tool_change) && !r.begin.changes_tool)
+    r.begin.changes_tool = std::ranges::none_of(
+        r.program.moves, [](const Move& move) { return move.motion == Motion::feed || move.cycle; });
+  if (!r.program.moves.empty()) return;
+  const bool all_axes = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
+  for (const FoundG& g : r.sorted.g) {
+    r.begin.groups |= std::uint32_t{1} << static_cast<unsigned>(g.code->group);
+    if (g.code->action == Action::end_displace) r.begin.ended |= g.code->bit;
+    if (g.code->action == Action::shift && all_axes) r.begin.ended |= shifted;
+  }
+  r.begin.offsets = r.offsets;
+}
+
+void return_from_call(const Block& block, Reading& r) {
   if (r.body.subprogram && r.body.open.size() == 1) {
     close_body(r);
     r.after_subprogram = true;
   } else if (r.body.open.empty()) {
+    if (!r.body.jumps) check_repetition(block, r);
     r.ended = !r.body.jumps || r.sorted.word('P') == nullptr;  // M99 P10 jumps to N10
   } else {
     note_differences(r);

@@ -10,8 +10,11 @@ void read_flow(const Block& block, Reading& reading);
 /// Reads the O-number of a program: the first one, or that of a subprogram behind it.
 void read_program_number(const Block& block, Reading& reading);
 
-/// M99: ends a subprogram, or repeats the program.
-void return_from_call(Reading& reading);
+/// Notes the states that the block sets if it is before the first move.
+void note_begin_of_program(const Block& block, Reading& reading);
+
+/// M99: ends a subprogram, or repeats the program. Throws `InputError` if a repetition has another state.
+void return_from_call(const Block& block, Reading& reading);
 
 /// Makes the states unknown that differ between `before` and `now`.
 void mark_differences_unknown(const Dialect& dialect, const ModalState& before, ModalState& now);

@@ -115,7 +115,10 @@ bool move_zero(const Block& block, Reading& r, Vector3& zero_mm) {
       coordinate(r.state.position_mm, axis) = value, r.state.known[axis] = true;
   }
   change_frame(r);
-  if (!first) add_set_position(block, r);
+  if (first)
+    r.begin.takes_position = true;
+  else
+    add_set_position(block, r);
   return true;
 }
 

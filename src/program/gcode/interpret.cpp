@@ -245,6 +245,7 @@ void apply_words(const Block& block, Reading& r) {
   r.angle = block.angle;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
+  note_begin_of_program(block, r);
   apply_parameter(block, r);
   remark_named_tool(block, r);
   if (has_other_codes(r.sorted)) {
@@ -283,8 +284,8 @@ void read_words(const Block& block, Reading& r) {
   }
 }
 
-void end_program(Reading& r) {
-  if (r.sorted.has(MAction::return_from_call)) return_from_call(r);
+void end_program(const Block& block, Reading& r) {
+  if (r.sorted.has(MAction::return_from_call)) return_from_call(block, r);
   if (r.sorted.has(MAction::end) && (r.body.jumps || r.body.open.empty())) r.ended = true;
 }
 
@@ -304,7 +305,7 @@ void read_statement(const Block& block, Reading& r) {
   if (!words) forget_unread_speeds(block, r.state);
   if (words) read_with_own_modes(block, r);
   end_statement(block, r);
-  if (words && empty(block.block_delete)) end_program(r);
+  if (words && empty(block.block_delete)) end_program(block, r);
 }
 
 }  // namespace
@@ -329,7 +330,7 @@ void interpret(const Block& block, Reading& r) {
   if (block.words.empty() && block.speed_words.empty()) return;
   ++r.program.block_count;
   read_with_own_modes(block, r);
-  if (empty(block.block_delete)) end_program(r);
+  if (empty(block.block_delete)) end_program(block, r);
 }
 
 }  // namespace counterflex

@@ -31,6 +31,15 @@ struct Body {
   std::uint16_t begun = 0;
 };
 
+/// What the program itself sets before its first move. A repetition by M99 begins with it.
+struct BeginOfProgram {
+  std::uint32_t groups = 0;                    ///< a bit for each CodeGroup
+  std::uint16_t ended = 0;                     ///< bits of Displacement
+  bool changes_tool = false;                   ///< M6 before the first cut
+  bool takes_position = false;                 ///< G92 gives the place at which the operator left the tool
+  std::map<std::string, SetOffset> offsets{};  ///< by G10
+};
+
 /// State of the reader between blocks. `program` grows. Only moves of an unfinished contour are changed
 /// later.
 struct Reading {
@@ -63,7 +72,8 @@ struct Reading {
   std::string last_reason{};                 ///< reason of the last uncorrected block
   std::optional<CornerSize> corner{};        ///< corner between the end of the block and the next one
   std::optional<CornerSize> after_corner{};  ///< corner between the last move and the next one
-  bool lengths_set = false;  ///< G10 has changed tool lengths: the lengths in the options are no longer valid
+  /// A variable or a computed G10 may have changed tool lengths: those in the options are no longer valid.
+  bool lengths_set = false;
   bool after_subprogram = false;  ///< after M99 of a subprogram: another program may follow
   bool ended = false;             ///< M2 or M30 was read
   int force_line = 0;             ///< line of the last comment (FORCE ...)

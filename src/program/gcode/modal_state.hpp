@@ -67,6 +67,8 @@ struct FrameShifts {
 struct SetOffset {
   std::array<std::optional<double>, 3> set_mm{};  ///< position in machine coordinates, by axis: L2
   Vector3 moved_mm = Vector3::Zero();             ///< shift from its position: L20
+
+  bool operator==(const SetOffset&) const = default;
 };
 
 /// Position of the current move relative to a contour under G41 or G42.

@@ -143,6 +143,34 @@ TEST_CASE("numbered subprograms before or behind a program end at M99") {
   CHECK(fixed_moves("X1.\nM99\n", "fanuc") == Fixed{false});
 }
 
+TEST_CASE("M99 of a main program is refused if the repetition begins with another state") {
+  const auto refusal = [](const std::string& text, const char* dialect = "fanuc") {
+    const std::string message = diagnostic_of([&] { read(text + "M99\n", dialect); });
+    const std::size_t begin = message.find("its end ");
+    return begin == std::string::npos ? message
+                                      : message.substr(begin + 8, message.find(", which") - begin - 8);
+  };
+  const std::string begin = "O1\nG21 G90 G54 G17\nG0 X0. Y0. Z5.\n";
+  CHECK(refusal(begin + "G1 X5. F100.\n") == "none");
+  CHECK(refusal(begin + "G1 X5. F100.\nG55 G20 G18 G91\nG28 Z0.\n") == "none");
+  CHECK(refusal(begin + "G52 X3. Y2.\n") == "G52 shifts the coordinates");
+  CHECK(refusal(begin + "G52 X3. Y2.\nG52 X0. Y0. Z0.\n") == "none");
+  CHECK(refusal("O1\nG52 X0. Y0. Z0.\n" + begin.substr(3) + "G52 X3. Y2.\n") == "none");
+  CHECK(refusal(begin + "G92 X5.\n") == "G92 has set the position");
+  CHECK(refusal("O1\nG21 G92 X0. Y0. Z0.\n" + begin.substr(3)) == "G92 has set the position");
+  CHECK(refusal(begin + "G68 X0. Y0. R30.\n") == "the coordinates are rotated");
+  CHECK(refusal(begin + "G68 X0. Y0. R30.\nG69\n") == "none");
+  CHECK(refusal(begin + "G10 L2 P1 X5.\n") == "G10 has changed a work offset");
+  CHECK(refusal("O1\nG21 G90 G10 L2 P1 X5.\n" + begin.substr(3)) == "none");
+  CHECK(refusal("G21\nG0 X0. Y0. Z5.\nG55\n") == "the work offset is not G54");
+  CHECK(refusal("G21\nG0 X0. Y0. Z5.\nG91\n") == "G91 is active");
+  CHECK(refusal("G21\nG0 X0. Y0. Z5.\nG18\n") == "G17 is not active");
+  CHECK(refusal(begin + "G1 X5. F100.\nT2 M6\n") == "the tool was changed");
+  CHECK(refusal("O1\nG21 G90 G54 G17 T1 M6\nG0 X0. Y0. Z5.\nG1 X5. F100.\nT2 M6\n") == "none");
+  CHECK(diagnostic_of([&] { read(begin.substr(3) + "G52 X3.\nM47\n", "mach3"); }).find("M47 repeats") !=
+        std::string::npos);
+}
+
 TEST_CASE("a loop of Macro B is fixed, and GOTO makes the whole program fixed") {
   CHECK(fixed_moves("WHILE [#1 LT 5] DO1\nX1.\nEND1\nG0 X2.\n", "fanuc") == Fixed{true, false});
   CHECK(fixed_moves("IF [#1 EQ 0] THEN #2=5\nX2.\n", "fanuc") == Fixed{false});

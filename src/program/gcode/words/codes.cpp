@@ -10,6 +10,7 @@ namespace {
 
 constexpr unsigned not_mach = any_family & ~mach3_family;
 constexpr unsigned linux_like = linuxcnc_family | grbl_family;
+constexpr unsigned not_shop = linux_like | mach3_family;
 
 constexpr std::string_view points_of_turning = "polar interpolation";
 constexpr std::string_view points = "tool centre point control";
@@ -225,7 +226,7 @@ MAction action_of_m(int code, const Dialect& dialect) {
   if (code == 6 || (code == 16 && dialect.family == haas_family)) return MAction::tool_change;
   if (contains(acting_after, code)) return MAction::acts_after;
   if (code == 98 || code == 97 || (code == 198 && dialect.family != linuxcnc_family)) return MAction::call;
-  if (code == 99) return MAction::return_from_call;
+  if (code == 99 || (code == 47 && (not_shop & dialect.family) != 0)) return MAction::return_from_call;
   if (code == 72) return MAction::restore;
   if (code == 25) return MAction::retract;
   if (contains(harmless, code) || contains(with_parameters, code)) return MAction::state;

@@ -114,7 +114,7 @@ enum class MAction : std::uint8_t {
   tool_change,
   end,               ///< M2, M30
   call,              ///< M98: runs a subprogram
-  return_from_call,  ///< M99
+  return_from_call,  ///< M99; M47 of Mach3 repeats the program
   restore,           ///< M72: restores saved states
   kinematics,        ///< LinuxCNC's M428 to M430
   retract,           ///< M25: moves Z to its home on Centroid's controls
