@@ -158,7 +158,7 @@ const Word* turns_word(const Original& o) {
   const bool path_mode = std::any_of(o.block.words.begin(), o.block.words.end(), [](const Word& word) {
     return word.letter == 'G' && (word.value == 64 || word.value == 4);
   });
-  return path_mode ? nullptr : find_word(o.block, 'P');
+  return path_mode || !arcs_have_turns(o.dialect) ? nullptr : find_word(o.block, 'P');
 }
 
 /// A chord has no centre, radius or turns. The last piece of an arc makes the turns.
