@@ -130,7 +130,7 @@ std::string_view coordinates_left(const Reading& r) {
   if (shifts.turn_rad != 0) left |= rotated;
   left &= ~unsigned{r.begin.ended};
   if ((left & shifted) != 0) return "G52 shifts the coordinates";
-  if ((left & set_position) != 0 || r.begin.takes_position) return "G92 has set the position";
+  if ((left & set_position) != 0 || r.begin.takes_position) return "G92 or G52 has set the coordinates";
   if ((left & rotated) != 0) return "the coordinates are rotated";
   if ((left & data) != 0 || r.state.offsets_set != 0 || r.offsets != r.begin.offsets)
     return "G10 has changed a work offset";
@@ -259,11 +259,13 @@ void note_begin_of_program(const Block& block, Reading& r) {
     r.begin.changes_tool = std::ranges::none_of(
         r.program.moves, [](const Move& move) { return move.motion == Motion::feed || move.cycle; });
   if (!r.program.moves.empty()) return;
+  // LinuxCNC and Mach3 store G52 and G92 in the same place.
+  const std::uint16_t shift_bits = r.dialect.macro_words ? shifted : shifted | set_position;
   const bool all_axes = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
   for (const FoundG& g : r.sorted.g) {
     r.begin.groups |= std::uint32_t{1} << static_cast<unsigned>(g.code->group);
     if (g.code->action == Action::end_displace) r.begin.ended |= g.code->bit;
-    if (g.code->action == Action::shift && all_axes) r.begin.ended |= shifted;
+    if (g.code->action == Action::shift && all_axes) r.begin.ended |= shift_bits;
   }
   r.begin.offsets = r.offsets;
 }
