@@ -121,7 +121,7 @@ bool sets(const Reading& r, CodeGroup group) {
   return (r.begin.groups >> static_cast<unsigned>(group) & 1) != 0;
 }
 
-/// The coordinates at the end of the program that its begin does not set again; empty if there are none.
+/// The coordinates at the end of the program that its begin does not set again; else empty.
 std::string_view coordinates_left(const Reading& r) {
   const FrameShifts& shifts = r.state.shifts;
   unsigned left = r.state.displaced;
@@ -139,8 +139,7 @@ std::string_view coordinates_left(const Reading& r) {
   return left != 0 ? "the coordinates are not those of the work offset" : std::string_view();
 }
 
-/// The state at the end of the program with which a repetition would differ from the first pass; empty if
-/// there is none.
+/// The state at the end of the program with which a repetition would differ from the first pass; else empty.
 std::string_view state_left(const Reading& r) {
   const ModalState& state = r.state;
   const auto left = [&](CodeGroup group, bool differs, unsigned doubt) {
