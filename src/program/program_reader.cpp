@@ -31,6 +31,10 @@ bool begins_at_corner(const Move& move) {
   return move.corners && move.corners->begin_mm > 0;
 }
 
+/// A window of this multiple of the required size may end at a corner, which is then not judged. This limits
+/// the memory of a program with a corner at each line.
+constexpr std::size_t largest_at_corner = 16;
+
 /// A window of this multiple of the required size may end before a move along Z. This limits the memory of a
 /// program without moves across.
 constexpr std::size_t largest_along_z = 2;
@@ -190,7 +194,7 @@ struct ProgramReader::State {
       const std::size_t now = program().moves.size();
       const bool one = now == before + 1 && size_so_far() > least;
       const bool is_large = size_so_far() / largest_along_z > least;
-      if (one && !blocks->has_ended() && !begins_at_corner(program().moves.back()) &&
+      if (one && !blocks->has_ended() && may_part_before_last(least) &&
           blocks->may_end_before(program().moves.back(), is_large))
         return end_before_last();
     }
@@ -198,6 +202,10 @@ struct ProgramReader::State {
     }
     if (blocks->has_ended()) blocks->remark_rest(std::string_view(program().text).substr(blocks->position()));
     end_here(whole);
+  }
+
+  bool may_part_before_last(std::size_t least) {
+    return !begins_at_corner(program().moves.back()) || size_so_far() / largest_at_corner > least;
   }
 
   /// Moves the last move and all text from its line on to the next window.

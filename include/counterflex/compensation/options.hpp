@@ -236,7 +236,7 @@ struct ForwardRun {
 ///
 /// What a control puts into a corner between two pieces is sampled at 17 places or more: `in_corner`, with
 /// the first of the two pieces. Its wanted way lies between the wanted curves, its command between those of
-/// the pieces.
+/// the pieces. `after` is across the wanted way there: the way may begin a little earlier or later.
 ///
 /// What differs from the wanted path is a matter for the caller; only a status other than converged is a
 /// failure here.

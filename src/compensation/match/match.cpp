@@ -1,4 +1,3 @@
-
 #include "compensation/match/match.hpp"
 
 #include <algorithm>

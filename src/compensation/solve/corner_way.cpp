@@ -13,6 +13,7 @@ namespace {
 constexpr double least_turn = 1e-3;  // rad: with a smaller one there is nothing to round
 constexpr int most_newton_steps = 50;
 constexpr double small_step = 1e-12;  // of the lengths of the curves
+constexpr double rounding = 1e-14;    // of coordinates
 
 constexpr double smaller = 0.95;  // size, from one trial to the next
 constexpr int most_sizes = 200;
@@ -34,6 +35,7 @@ double curvature(const Curve& curve, const Vector3& normal) {
 bool solve_taken(const Curve& before, const Curve& after, double radius, const Vector3& normal,
                  Eigen::Vector2d& taken) {
   const double L1 = length(before), L2 = length(after);
+  const double small = small_step * (L1 + L2) + rounding * before.end.norm();
   for (int i = 0; i < most_newton_steps; ++i) {
     const double u1 = 1 - taken[0] / L1, u2 = taken[1] / L2;
     const Vector3 d1 = direction_at(before, u1), d2 = direction_at(after, u2);
@@ -45,7 +47,7 @@ bool solve_taken(const Curve& before, const Curve& after, double radius, const V
     const Eigen::Vector2d step = J.colPivHouseholderQr().solve(off);
     taken -= step;
     if (!taken.allFinite()) return false;
-    if (std::max(step.norm(), off.norm()) < small_step * (L1 + L2)) return true;
+    if (std::max(step.norm(), off.norm()) < small) return true;
   }
   return false;
 }

@@ -32,8 +32,8 @@ Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double sh
   w.corrected_line = piece.corrected_line;
   w.between = sample.between;
   w.place = sample.place;
-  w.in_corner = sample.in_corner;
-  w.exempt = sample.in_corner || (sample.between ? piece.exempt : piece.exempt_end);
+  w.in_corner = sample.corner_direction.has_value();
+  w.exempt = w.in_corner || (sample.between ? piece.exempt : piece.exempt_end);
   w.p_MT = all.places[s].p_MT;
   w.tool_axis = all.wanted[s].X_MT.R.col(2);
   w.R_MT = all.places[s].R_MT;
@@ -42,7 +42,7 @@ Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double sh
     w.cutting = segment->cutting;
     w.weight = segment->cutting ? share * (piece.u1 - piece.u0) * length(segment->wanted) : 0;
     w.s = segment->s_start + sample.u * (segment->s_end - segment->s_start);
-    w.direction = direction_at(segment->wanted, sample.u);
+    w.direction = sample.corner_direction.value_or(direction_at(segment->wanted, sample.u));
   } else {
     w.s = length_before(job.path, w.move);
     if (job.program.moves[w.move].cycle) w.direction = -w.tool_axis;  // the plunge to the bottom of a hole
@@ -52,6 +52,7 @@ Waypoint waypoint_of(const Job& job, PieceSamples& all, std::size_t s, double sh
   w.rho = std::move(all.answers[s].rho);
   w.directions = all.requests[s].directions;
   if (w.status == Status::converged) w.after = deviation(all.answers[s].X_MT, all.wanted[s].X_MT);
+  if (w.in_corner) w.after.head<3>() -= w.after.head<3>().dot(w.direction) * w.direction;
   w.correction.head<3>() = all.requests[s].target - original_command(job, piece.frame, w.p_MT);
   if (w.R_MT && all.requests[s].R) w.correction.tail<3>() = rotation_between(*all.requests[s].R, *w.R_MT);
   return w;
@@ -164,9 +165,9 @@ void judge_outermost(const Job& job, PlaceSolver& solver, ForwardRun& run) {
 }
 
 ForwardRun solve_slice(const Job& job, std::span<const Piece> pieces, const Questions& questions,
-                       const std::optional<Vector3>& command) {
+                       const std::optional<Vector3>& command, const Piece* next) {
   PlaceSolver solver(job);
-  PieceSamples all = sample_pieces(job, solver, pieces, questions, command);
+  PieceSamples all = sample_pieces(job, solver, pieces, questions, command, next);
   ForwardRun run{waypoints_of(job, all), {}};
   add_questions(job, solver, all, questions, run.waypoints);
   if (!run.waypoints.empty() && run.waypoints.back().status != Status::converged) {
@@ -184,7 +185,7 @@ std::vector<std::size_t> slice_borders(const Job& job, std::span<const Piece> pi
   std::vector<std::size_t> borders{0};
   double places = 0;
   for (std::size_t i = 0; i < pieces.size(); ++i) {
-    if (places >= slice_size && !meet_at_corner(job, pieces[i - 1], pieces[i])) {
+    if (places >= slice_size) {
       borders.push_back(i);
       places = 0;
     }
@@ -209,7 +210,8 @@ std::optional<Failure> solve_in_portions(const Job& job, std::span<const Piece> 
     for_each_index(runs.size(), job.options.threads, [&](std::size_t i) {
       const std::size_t begin = borders[first + i], end = borders[first + i + 1];
       const std::optional<Vector3> last = begin == 0 ? command : pieces[begin - 1].commanded.end;
-      runs[i] = solve_slice(job, pieces.subspan(begin, end - begin), questions, last);
+      const Piece* next = end < pieces.size() ? &pieces[end] : nullptr;
+      runs[i] = solve_slice(job, pieces.subspan(begin, end - begin), questions, last, next);
     });
     for (ForwardRun& run : runs) {
       take(std::move(run.waypoints));

@@ -255,13 +255,21 @@ void sample_closer(Slice& slice) {
   }
 }
 
-// On what the control puts into the corner between piece `t` and the next one. These samples belong to piece
-// `t`. The first half is under the forces beside the end of that piece, the second half under those beside
-// the start of the next one.
-void add_corner(Slice& slice, std::size_t t) {
-  const SampledPiece &before = slice.pieces[t], &after = slice.pieces[t + 1];
-  const Curve &line = before.segment->wanted, &next = after.segment->wanted;
-  const auto ways = corner_ways({line, before.piece->commanded}, {next, after.piece->commanded},
+// Whether the control puts a rounding or a chamfer between two pieces, one behind the other.
+bool meet_at_corner(const Job& job, const Piece& before, const Piece& after) {
+  const auto& corners = job.program.moves[before.move].corners;
+  const bool is_behind = corners && corners->end_mm > 0 && after.move == before.move + 1;
+  return is_behind && before.segment != no_segment && after.segment == before.segment + 1 &&
+         !before.end_only && !after.end_only;
+}
+
+// On what the control puts into the corner between piece `t` and `after`. These samples belong to piece `t`.
+// The first half is under the forces beside the end of that piece, the second half under those beside the
+// start of `after`.
+void add_corner(Slice& slice, std::size_t t, const Piece& after) {
+  const SampledPiece& before = slice.pieces[t];
+  const Curve &line = before.segment->wanted, &next = slice.job.path.segments[after.segment].wanted;
+  const auto ways = corner_ways({line, before.piece->commanded}, {next, after.commanded},
                                 slice.job.program.moves[before.piece->move].corners->end_size);
   if (!ways) return;
   const Curve& wanted = ways->wanted;
@@ -275,14 +283,14 @@ void add_corner(Slice& slice, std::size_t t) {
     const bool is_behind = w > 0.5;
     const double u = is_behind ? (2 * w - 1) * taken_behind : 1 - (1 - 2 * w) * taken,
                  u_of_sample = 1 - taken * (1 - static_cast<double>(k) / (steps + 1));
-    const Piece& beside = *(is_behind ? after : before).piece;
+    const Piece& beside = is_behind ? after : *before.piece;
     const Side side = is_behind ? Side::after : Side::before;
     add_sample(slice,
                {.piece = t,
                 .v = std::max(0.0, (u_of_sample - u0) / (1 - u0)),
                 .u = u_of_sample,
                 .between = true,
-                .in_corner = true},
+                .corner_direction = direction_at(wanted, w)},
                slice.job.forces.at(beside.segment, u, side, slice.cursor));
     slice.places.back().p_MT = point_at(wanted, w);
     slice.requests.back().target = point_at(ways->commanded, w);
@@ -290,10 +298,13 @@ void add_corner(Slice& slice, std::size_t t) {
   }
 }
 
-void add_corners(Slice& slice) {
+void add_corners(Slice& slice, const Piece* next) {
   if (!slice.questions.inside) return;
-  for (std::size_t t = 0; t + 1 < slice.pieces.size(); ++t)
-    if (meet_at_corner(slice.job, *slice.pieces[t].piece, *slice.pieces[t + 1].piece)) add_corner(slice, t);
+  for (std::size_t t = 0; t < slice.pieces.size(); ++t) {
+    const Piece* after = t + 1 < slice.pieces.size() ? slice.pieces[t + 1].piece : next;
+    if (after != nullptr && meet_at_corner(slice.job, *slice.pieces[t].piece, *after))
+      add_corner(slice, t, *after);
+  }
 }
 
 // Listed samples in order along the path, to the first that fails.
@@ -316,18 +327,12 @@ std::vector<std::size_t> listed_samples(const Slice& slice) {
 
 }  // namespace
 
-bool meet_at_corner(const Job& job, const Piece& before, const Piece& after) {
-  const auto& corners = job.program.moves[before.move].corners;
-  const bool is_behind = corners && corners->end_mm > 0 && after.move == before.move + 1;
-  return is_behind && before.segment != no_segment && after.segment == before.segment + 1 &&
-         !before.end_only && !after.end_only;
-}
-
 PieceSamples sample_pieces(const Job& job, PlaceSolver& solver, std::span<const Piece> pieces,
-                           const Questions& questions, const std::optional<Vector3>& command) {
+                           const Questions& questions, const std::optional<Vector3>& command,
+                           const Piece* next) {
   Slice slice(job, questions, solver);
   add_pieces(slice, pieces, command);
-  add_corners(slice);
+  add_corners(slice, next);
   solve_added(slice);
   sample_middles(slice);
   solve_added(slice);

@@ -1,5 +1,6 @@
 #pragma once
 /// Samples of pieces, solved forward: their ends, and as many inside as the tolerance needs.
+#include <optional>
 #include <span>
 
 #include "compensation/solve/solver.hpp"
@@ -22,8 +23,10 @@ struct PieceSample {
   bool between = false;      ///< inside the piece
   bool place = false;        ///< of the original path
   bool listed = true;        ///< becomes a waypoint
-  bool in_corner = false;    ///< on what the control puts between the piece and the next one
   Side side = Side::before;  ///< of a step of the force
+  /// Of what the control puts between the piece and the next one, at a sample on it. The miss along it is not
+  /// one: the way may begin earlier or later.
+  std::optional<Vector3> corner_direction{};
 };
 
 /// All but `pieces` and `order` are by sample.
@@ -42,12 +45,10 @@ struct PieceSamples {
   }
 };
 
-/// Whether the control puts a rounding or a chamfer between two pieces, one behind the other. Both must be
-/// sampled together.
-bool meet_at_corner(const Job& job, const Piece& before, const Piece& after);
-
-/// Solves `pieces` as `solve_pieces` describes; `command`: where the piece before them ended.
+/// Solves `pieces` as `solve_pieces` describes; `command`: where the piece before them ended; `next`: the
+/// piece behind them, if any.
 PieceSamples sample_pieces(const Job& job, PlaceSolver& solver, std::span<const Piece> pieces,
-                           const Questions& questions, const std::optional<Vector3>& command);
+                           const Questions& questions, const std::optional<Vector3>& command,
+                           const Piece* next);
 
 }  // namespace counterflex

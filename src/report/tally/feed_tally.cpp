@@ -36,6 +36,7 @@ void FeedTally::add_window(const Job& window) {
     const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
     known_lengths_ += fractions_of_holes(move).size() + first_known;
   }
+  moves_.count += parts_corner(window.program);
   for (const Segment& segment : window.path.segments) {
     if (!segment.cutting && !cuts_at_end(window.program.moves[segment.move])) continue;
     ++known_lengths_;

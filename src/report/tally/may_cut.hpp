@@ -1,5 +1,5 @@
 #pragma once
-/// Blocks that are not followed and count as feed moves.
+/// What is not judged and counts as feed moves.
 #include "counterflex/program/program.hpp"
 
 namespace counterflex {
@@ -9,6 +9,12 @@ namespace counterflex {
 inline bool may_cut(const Move& move, const Program& program) {
   if (program.dialect == "heidenhain" && move.fixed[2]) return true;
   return move.fixed[0] && move.fixed[1] && move.fixed[2];
+}
+
+/// Whether a window ends at a corner, whose rounding or chamfer is not judged then.
+inline bool parts_corner(const Program& window) {
+  return window.after && !window.moves.empty() && window.moves.back().corners &&
+         window.moves.back().corners->end_mm > 0;
 }
 
 }  // namespace counterflex

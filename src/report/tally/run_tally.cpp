@@ -8,6 +8,7 @@
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/reach.hpp"
+#include "report/tally/may_cut.hpp"
 #include "report/text/control.hpp"
 #include "report/text/tool_words.hpp"
 
@@ -135,6 +136,9 @@ void RunTally::add_window(const Job& window) {
   feed_.add_window(window);
   for (const Move& move : window.program.moves)
     if (goes_to_unknown_places(move) || drills_without_waypoint(move)) travel_.skip(move.line);
+  if (parts_corner(window.program))
+    list(left_alone_, LeftAlone{window.program.moves.back().line,
+                                "the corner at its end is not judged: too many corners follow one another"});
   add_forces(window.forces);
   add_reversals(window);
 }

@@ -1,5 +1,8 @@
 #include "compensation/solve/corner_way.hpp"
 
+#include <Eigen/Geometry>
+#include <array>
+
 #include "compensation/support/gantry.hpp"
 #include "compensation/support/window_run.hpp"
 
@@ -27,13 +30,18 @@ Fillet fillet(const Eigen::Vector2d& p, const Eigen::Vector2d& q, const Eigen::V
           q + radius / std::tan(half) * b};
 }
 
+// The distance of a point from the circle of the fillet (mm).
+double distance(const Fillet& way, const Eigen::Vector2d& p) {
+  return std::abs((p - way.centre).norm() - (way.begin - way.centre).norm());
+}
+
 Eigen::Vector2d on(const Fillet& way, double u) {
   const Eigen::Vector2d from = way.begin - way.centre, to = way.end - way.centre;
   const double angle = std::atan2(from.x() * to.y() - from.y() * to.x(), from.dot(to));
   return way.centre + Eigen::Rotation2Dd(u * angle) * from;
 }
 
-// What the rounding between written lines misses, at equal fractions (mm).
+// What the rounding between written lines misses, across its way (mm).
 double largest_miss_mm(const std::vector<Move>& lines, double radius) {
   const auto place = [](const Vector3& p) { return Eigen::Vector2d(p.head<2>()); };
   const Fillet wanted = fillet({0, 10}, {140, 10}, {90, 140}, radius),
@@ -43,7 +51,7 @@ double largest_miss_mm(const std::vector<Move>& lines, double radius) {
   for (int i = 0; i <= 1000; ++i) {
     const Eigen::Vector2d target = on(written, i / 1e3);
     const Eigen::Vector2d tip(target.x() - std::sin(error) * target.y(), std::cos(error) * target.y());
-    largest = std::max(largest, (tip - on(wanted, i / 1e3)).norm());
+    largest = std::max(largest, distance(wanted, tip));
   }
   return largest;
 }
@@ -55,11 +63,17 @@ double largest_in_corners(const std::vector<Waypoint>& waypoints) {
   return largest;
 }
 
-std::vector<Move> feeds_in(const std::string& text) {
+std::vector<Move> feeds_in(const std::string& text, const std::string& file = "part.nc") {
   std::vector<Move> feeds;
-  for (const Move& move : read_program(text, "part.nc", {}).moves)
+  for (const Move& move : read_program(text, file, {}).moves)
     if (move.motion == Motion::feed) feeds.push_back(move);
   return feeds;
+}
+
+// The ends of a chamfer between the first two moves that takes `side` mm from both.
+std::array<Vector3, 2> chamfer_ends(const std::vector<Move>& feeds, double side) {
+  const Curve before = curve_of(feeds[0]), after = curve_of(feeds[1]);
+  return {point_at(before, 1 - side / length(before)), point_at(after, side / length(after))};
 }
 
 void check_touches(const Curve& way, const Vector3& direction_before, const Vector3& direction_behind) {
@@ -97,10 +111,10 @@ TEST_CASE("the rounding of a corner touches both of its sides, lines or arcs") {
 }
 
 TEST_CASE("a rounding that the control inserts is judged where the control makes it") {
-  for (const auto& [size, radius] :
-       std::vector<std::pair<std::string, double>>{{"1.", 1}, {"20.", 20}, {"60.", 60}}) {
-    CAPTURE(size);
-    const Shop shop({.machine = rigid_gantry("0, 0, 0", error), .text = rounded(size)});
+  for (const double radius : {1., 20., 60.}) {
+    CAPTURE(radius);
+    const Shop shop(
+        {.machine = rigid_gantry("0, 0, 0", error), .text = rounded(fmt::format("{:.1f}", radius))});
     const Compensation result = compensated(shop);
     const double expected = largest_miss_mm(feeds_in(result.text), radius) * mm;
     CHECK(std::abs(largest_in_corners(result.waypoints) - expected) < 0.01 * expected);
@@ -116,6 +130,19 @@ TEST_CASE("a corner of unknown size, and one that does not fit, is judged as the
         largest_miss_mm(feeds_in(result.text), 0.95 * 139.28 * std::tan(0.5 * 1.2036)) * mm;
     CHECK(std::abs(largest_in_corners(result.waypoints) - expected) < 0.05 * expected);
   }
+}
+
+TEST_CASE("a rounding that begins a little earlier than the wanted one does not miss it") {
+  std::string text = "%\nO1\nG21 G90 G17 G54\nG0 X0. Y0. Z0.\nG1 F600\n";
+  double x = 0, y = 0;
+  for (int i = 0; i < 12; ++i) {
+    x += 20 * std::cos(2 * deg * i), y += 20 * std::sin(2 * deg * i);
+    text += fmt::format("X{:.3f} Y{:.3f} ,R400.\n", x, y);
+  }
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", error), .text = text + "X400. Y400.\nM30\n%\n"});
+  const Compensation result = compensated(shop);
+  CHECK(largest_in_corners(result.waypoints) > 0);
+  CHECK(largest_in_corners(result.waypoints) < 1.5 * um);
 }
 
 TEST_CASE("windows do not part the sides of a corner") {
@@ -138,6 +165,16 @@ TEST_CASE("a chamfer beside an arc is judged, too") {
       "0 BEGIN PGM P MM\n1 TOOL CALL 1 Z S1000\nL X+0 Y+10 Z+0 R0 FMAX\nL X+140 F600\nCHF 30\n"
       "CR X+90 Y+140 R+200 DR+\nEND PGM P MM\n";
   const Shop shop({.machine = rigid_gantry("0, 0, 0", error), .text = text});
-  // The machine changes lengths in the direction behind the corner by 6.7e-5.
-  CHECK(std::abs(largest_in_corners(compensated(shop).waypoints) - 30 * mm * 6.7e-5) < 0.1e-6);
+  const Compensation result = compensated(shop);
+  const std::array<Vector3, 2> wanted = chamfer_ends(feeds_in(text, "part.h"), 30),
+                               written = chamfer_ends(feeds_in(result.text, "part.h"), 30);
+  const Vector3 across = Vector3::UnitZ().cross(wanted[1] - wanted[0]).normalized();
+  double expected = 0;
+  for (std::size_t i = 0; i < 2; ++i) {
+    const Vector3& target = written[i];
+    const Vector3 tip(target.x() - std::sin(error) * target.y(), std::cos(error) * target.y(), 0);
+    expected = std::max(expected, std::abs(across.dot(tip - wanted[i])) * mm);
+  }
+  CHECK(expected > 1 * um);
+  CHECK(std::abs(largest_in_corners(result.waypoints) - expected) < 0.01 * expected);
 }
