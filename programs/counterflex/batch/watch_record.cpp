@@ -7,6 +7,7 @@
 #include "counterflex/files/files.hpp"
 #include "process/exit_status.hpp"
 #include "process/version.hpp"
+#include "run/header/corrected_header.hpp"
 #include "run/inputs.hpp"
 #include "run/job_files.hpp"
 
@@ -41,7 +42,13 @@ WatchRecord::WatchRecord(const std::string& folder)
 
 bool WatchRecord::is_done(const BatchJob& job, FileHashes& on_disk) const {
   const auto found = programs_.find(job.program);
-  return found != programs_.end() && is_proven(found->second, job.key, on_disk);
+  if (found == programs_.end()) return false;
+  JobOutcome recorded = found->second;
+  // A corrected program that was edited by hand is kept.
+  for (FileHash& file : recorded.outputs)
+    if (file.path == recorded.output && has_corrected_header(file.path))
+      file.sha256 = on_disk.of(file.path).value_or("");
+  return is_proven(recorded, job.key, on_disk);
 }
 
 void WatchRecord::set(const std::string& program, JobOutcome outcome) {

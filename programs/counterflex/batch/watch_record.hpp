@@ -18,7 +18,8 @@ class WatchRecord {
   /// By path of the program.
   const std::map<std::string, JobOutcome>& programs() const { return programs_; }
 
-  /// Whether the job was done with the same options and inputs, and its outputs are as they were written.
+  /// Whether the job was done with the same options and inputs, and its outputs are as they were written. The
+  /// corrected program itself needs its header only: people may edit it.
   bool is_done(const BatchJob& job, FileHashes& on_disk) const;
 
   /// Replaces what is known of the program, and of others that had one of its outputs. Throws `InputError`

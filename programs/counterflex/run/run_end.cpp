@@ -109,10 +109,6 @@ std::string result_text(const Options& options, const RunReport& report, const R
   return summary_text(report, names, colour);
 }
 
-}  // namespace
-
-namespace {
-
 void warn_of_older(const std::vector<std::string>& paths, Console& console) {
   std::error_code ignored;
   for (const std::string& path : paths)
@@ -130,7 +126,7 @@ std::optional<ErrorKind> replacing(const OutputPaths& paths, Console& console,
     if (error) warn_of_older({paths.program}, console);
     return error;
   } catch (const InputError& error) {
-    if (error.kind() != ErrorKind::usage)
+    if (error.kind() == ErrorKind::program_text || error.kind() == ErrorKind::machine_or_force)
       warn_of_older({paths.program, paths.report_json, paths.report_csv, paths.report_page, paths.plot},
                     console);
     throw;

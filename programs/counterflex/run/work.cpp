@@ -102,6 +102,12 @@ Pose given_pose(const ProgramFrame& frame) {
   return {frame.pose_mm->R, frame.pose_mm->p * mm};
 }
 
+/// Frames of one offset give one warning, with the first line.
+void add_once(Remark warning, std::vector<Remark>& warnings) {
+  const auto is_same_text = [&](const Remark& known) { return known.what == warning.what; };
+  if (std::ranges::none_of(warnings, is_same_text)) warnings.push_back(std::move(warning));
+}
+
 /// Warns of poses in the table that the program does not use, because it gives others.
 std::vector<Remark> pose_warnings(const std::map<std::string, WorkOffset>& work, const Overview& program) {
   std::vector<Remark> warnings;
@@ -110,11 +116,12 @@ std::vector<Remark> pose_warnings(const std::map<std::string, WorkOffset>& work,
     if (program.frame_lines[i] == 0 || !frame.pose_mm) continue;
     const auto stated = work.find(frame.work_offset);
     if (stated == work.end() || is_same(stated->second.X_MW, given_pose(frame))) continue;
-    warnings.push_back(
+    add_once(
         {program.frame_lines[i],
          fmt::format("the program itself gives {} the pose {}. This pose is used, not that of [work.{}]: {}",
                      frame.work_offset, pose_in_words(given_pose(frame)), toml_key(frame.work_offset),
-                     pose_in_words(stated->second.X_MW))});
+                     pose_in_words(stated->second.X_MW))},
+        warnings);
   }
   return warnings;
 }
@@ -126,11 +133,11 @@ void add_datum_warning(const WorkFrame& offset, const WorkFrame& placed, int lin
   std::string axes;
   for (Eigen::Index k = 0; k < 3; ++k)
     if (placed.touched->axes[k] == 0) axes += fmt::format("{}{}", axes.empty() ? "" : ", ", "XYZ"[k]);
-  warnings.push_back(
-      {line,
-       fmt::format("the program itself sets {} of {} to another place than [work.{}], which was touched "
-                   "off. There the offset counts as set independently of this machine's errors",
-                   axes, offset.name, toml_key(offset.name))});
+  add_once({line,
+            fmt::format("the program itself sets {} of {} to another place than [work.{}], which was touched "
+                        "off. There the offset counts as set independently of this machine's errors",
+                        axes, offset.name, toml_key(offset.name))},
+           warnings);
 }
 
 /// The position of `frame` in its offset, in m.

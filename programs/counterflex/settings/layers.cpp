@@ -7,6 +7,8 @@
 #include <array>
 #include <thread>
 
+#include "counterflex/files/text.hpp"
+#include "counterflex/machine/machine.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "process/read_input.hpp"
 #include "settings/output_names.hpp"
@@ -40,13 +42,15 @@ const Setting* strongest(const Layers& layers, std::string_view option) {
   return nullptr;
 }
 
-/// Of values NAME=...; empty if one has no name: "machine".
+/// The names of values NAME=..., in one spelling; empty if one has no name: "machine".
 std::vector<std::string> names_in(const Setting& setting) {
   std::vector<std::string> names;
   for (const std::string& value : setting.values) {
     const std::size_t end = value.find('=');
     if (end == std::string::npos) return {};
-    names.push_back(value.substr(0, end));
+    const std::string name = value.substr(0, end);
+    const auto tool = setting.option == "work" ? std::nullopt : read_tool_number(name);
+    names.push_back(tool ? fmt::format("T{}", *tool) : work_offset_name(name).value_or(name));
   }
   return names;
 }
