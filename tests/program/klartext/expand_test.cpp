@@ -61,11 +61,12 @@ TEST_CASE("Q parameters set to constants are evaluated with --evaluate") {
   const Move line = last("L X+Q1 IY-Q3 F200\n");
   CHECK(all_known(line.known_end));
   CHECK((line.end_mm - Vector3(12.5, -2.5, 5)).norm() < 1e-12);
+  CHECK(last("FN 5: Q1 = SQRT +4\nL X+Q1 F200\n").end_mm.x() == 2);
   CHECK(last("CC X+Q1 Y+0\nL X+0 Y+0\nC X+25 Y+0 DR-\n").arc);
   for (const char* doubt :
        {"FN 18: SYSREAD Q1 = ID270 NR1 IDX3\n", "/ Q1 = 5\n", "CALL PGM OTHER\nL X+0 Y+0 Z+5\n",
         "Q1 = SIN Q9\n", "FN #0: Q1 = +5\n", "LBL 1\nQ1 = Q1 + 1\nCALL LBL 1 REP 3\nL X+0 Y+0 Z+5\n",
-        "FN 5: Q1 = SQRT +4\n", "FN 23: Q0 = CDATA Q30\n", "FN 24: Q1 = CDATA Q30\n", "Q01 = Q9\n",
+        "FN 5: Q1 = SQRT -4\n", "FN 23: Q0 = CDATA Q30\n", "FN 24: Q1 = CDATA Q30\n", "Q01 = Q9\n",
         "FN 28: TABREAD Q0 = 6 /\"X,Y,D\"\n",
         "CYCL DEF 12.0 PGM CALL\nCYCL DEF 12.1 PGM B\nL X+0 M99\nL X+0 Y+0 Z+5\n"}) {
     CAPTURE(doubt);
