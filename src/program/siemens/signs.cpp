@@ -36,15 +36,19 @@ bool may_have_names(std::string_view line) {
   return false;
 }
 
-/// REPEAT or REPEATB with labels behind it. "REPEAT_LAB:" is a label.
+/// REPEAT or REPEATB with labels behind it. "REPEAT_LAB:" and "END_REPEAT:" are labels. "N80REPEAT" needs no
+/// blank.
 bool repeats_part(const std::string& words) {
   constexpr std::string_view repeat = "REPEAT";
-  const std::size_t at = words.find(repeat);
-  if (at == std::string::npos || (at > 0 && is_identifier_character(words[at - 1]))) return false;
-  std::size_t behind = at + repeat.size();
-  if (behind < words.size() && words[behind] == 'B') ++behind;
-  if (behind < words.size() && is_identifier_character(words[behind])) return false;
-  return words.find_first_not_of(" \t\r", behind) != std::string::npos;
+  for (std::size_t at = 0; (at = words.find(repeat, at)) != std::string::npos;) {
+    const char before = at > 0 ? words[at - 1] : ' ';
+    at += repeat.size();
+    if (is_identifier_character(before) && !is_digit(before)) continue;
+    const std::size_t behind = at + (at < words.size() && words[at] == 'B' ? 1 : 0);
+    if (behind < words.size() && is_identifier_character(words[behind])) continue;
+    if (words.find_first_not_of(" \t\r", behind) != std::string::npos) return true;
+  }
+  return false;
 }
 
 }  // namespace

@@ -706,5 +706,10 @@ TEST_CASE("siemens: a label that begins with REPEAT repeats nothing, and ANG=90 
   CHECK(all_known(siemens(start + "REPEAT_LAB: G1 X5 F100\n").moves.back().known_end));
   CHECK_FALSE(all_known(siemens(start + "AA: G1 X5 F100\nREPEAT AA\n").moves.back().known_end));
   CHECK_FALSE(all_known(siemens(start + "AA: G1 X5 F100\nREPEATB AA\n").moves.back().known_end));
+  for (const std::string repeat : {"N80REPEAT AA BB P3", ":80REPEATB AA", "END_REPEAT: REPEAT AA BB P=3"}) {
+    CAPTURE(repeat);
+    CHECK_FALSE(
+        all_known(siemens(start + "AA: G91 G1 X5 F100\nBB:\n" + repeat + "\n").moves.back().known_end));
+  }
   CHECK(siemens(start + "G1 X0 Y0 F100\nANG=90 Y20\n").moves.back().end_mm.x() == 0);
 }
