@@ -10,6 +10,8 @@
 namespace counterflex {
 namespace {
 
+constexpr std::string_view computed_frame_data = "FDAT_ACT";  // its values are not known
+
 /// n of "BASE_DATA[n]" with a plain number; empty for other text. `value` is squeezed.
 std::optional<long> index_of(std::string_view value, std::string_view array) {
   if (!value.starts_with(array) || !value.ends_with(']')) return std::nullopt;
@@ -119,12 +121,18 @@ void select_frame_data(KrlReading& r, const RobotLine& line) {
   const KrlComponent* mode = aggregate ? find_component(*aggregate, "IPO_FRAME") : nullptr;
   if (mode != nullptr && krl_word(part(text_of(r, data), mode->value)) == "#TCP")
     refuse_krl_fixed_tool(r, line, line.code.begin, "IPO_FRAME");
-  const bool numbers = tool != nullptr && base != nullptr && tool->number && base->number;
-  const auto number_of = [&](const KrlComponent& c) { return static_cast<long>(c.number->value); };
-  const std::string name = numbers ? fmt::format("BASE_DATA[{}]", number_of(*base)) : krl_word(data);
-  const std::string tool_name = numbers ? fmt::format("TOOL_DATA[{}]", number_of(*tool)) : krl_word(data);
-  select_numbered_tool(r, line, tool_name);
-  select_frame(r, line, numbered_base(r, name));
+  const auto name_in = [&](std::string_view array, const KrlComponent* number) {
+    if (number != nullptr && number->number)
+      return fmt::format("{}[{}]", array, static_cast<long>(number->number->value));
+    return aggregate || data == computed_frame_data ? std::string() : krl_word(data);
+  };
+  const std::string tool_name = name_in("TOOL_DATA", tool), base_name = name_in("BASE_DATA", base);
+  if (tool_name.empty())
+    r.lost_tool = line.line;
+  else
+    select_numbered_tool(r, line, tool_name);
+  if (base_name.empty()) return forget_krl_base(r, line);
+  select_frame(r, line, numbered_base(r, base_name));
 }
 
 /// ORI_TYP of the motion parameters LDAT_ACT, as BAS copies it to $ORI_TYPE.
@@ -158,6 +166,24 @@ void refuse_krl_fixed_tool(const KrlReading& r, const RobotLine& line, std::size
 
 void assign_krl_base(KrlReading& r, const RobotLine& line, Span value) {
   select_frame(r, line, base_of(r, value));
+}
+
+void assign_krl_frame_data(KrlReading& r, Span value) {
+  r.frame_data = in_body(r) ? computed_frame_data : part(r.robot.program.text, value);
+}
+
+void assign_krl_frame_member(KrlReading& r, std::string_view member, std::string_view value) {
+  const bool selects = member == "TOOL_NO" || member == "BASE_NO" || member == "IPO_FRAME";
+  const auto aggregate = data_of(r, r.frame_data);
+  const KrlComponent* const found = aggregate ? find_component(*aggregate, member) : nullptr;
+  if (!selects || (found == nullptr && value == "#BASE")) return;
+  if (found == nullptr || in_body(r) || (member == "IPO_FRAME" && value != "#BASE")) {
+    r.frame_data = computed_frame_data;
+    return;
+  }
+  const std::string_view text = text_of(r, r.frame_data);
+  r.frame_data = fmt::format("{}{}{}", part(text, {aggregate->span.begin, found->value.begin}), value,
+                             part(text, {found->value.end, aggregate->span.end}));
 }
 
 void assign_krl_tool(KrlReading& r, const RobotLine& line, Span value) {

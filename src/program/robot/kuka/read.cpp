@@ -98,14 +98,16 @@ void read_assignment(KrlReading& r, const RobotLine& line, const KrlAssignment& 
     return;
   }
   if (variable == "$ORI_TYPE") return set_krl_orientation_type(r, value);
-  if (variable == "FDAT_ACT" || variable == "LDAT_ACT") {
-    std::string& data = variable == "FDAT_ACT" ? r.frame_data : r.line_data;
-    data = in_body(r) ? variable : part(text, assignment.value);
+  if (variable == "FDAT_ACT") return assign_krl_frame_data(r, assignment.value);
+  if (variable == "LDAT_ACT") {
+    r.line_data = in_body(r) ? variable : part(text, assignment.value);
     return;
   }
   if (variable.ends_with(".IPO_FRAME") && value == "#TCP")
     refuse_krl_fixed_tool(r, line, assignment.variable.begin, variable);
-  if (variable.starts_with("FDAT_ACT.")) r.frame_data = "FDAT_ACT";
+  constexpr std::string_view of_frame_data = "FDAT_ACT.";
+  if (variable.starts_with(of_frame_data))
+    return assign_krl_frame_member(r, variable.substr(of_frame_data.size()), value);
   if (variable == "$IPO_MODE" && value == "#TCP")
     refuse_krl_fixed_tool(r, line, assignment.variable.begin, variable);
   if (variable.starts_with("$BASE.") || variable.starts_with("$TOOL."))

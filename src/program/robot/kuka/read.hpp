@@ -81,6 +81,10 @@ void read_data_line(KrlReading& reading, const RobotLine& line);
 void assign_krl_base(KrlReading& reading, const RobotLine& line, Span value);
 void assign_krl_tool(KrlReading& reading, const RobotLine& line, Span value);
 
+/// FDAT_ACT = ..., FDAT_ACT.BASE_NO = ...
+void assign_krl_frame_data(KrlReading& reading, Span value);
+void assign_krl_frame_member(KrlReading& reading, std::string_view member, std::string_view value);
+
 /// The pose of $BASE is not known from here on. Its name is "$BASE 1", the next one's "$BASE 2", also where
 /// the text before it has more lines.
 void forget_krl_base(KrlReading& reading, const RobotLine& line);

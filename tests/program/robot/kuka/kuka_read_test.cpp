@@ -446,6 +446,30 @@ TEST_CASE("behind an external base, and a value read into $BASE or $TOOL, these 
   CHECK(refusal("SREAD(a,b,c)\n") == "none");
 }
 
+TEST_CASE("a member of FDAT_ACT selects the base of its number, and a computed one another base") {
+  const auto bases = [](const std::string& first, const std::string& second) {
+    const std::string select = "BAS(#FRAMES)\nLIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+    const Program program = read_statements("FDAT_ACT={TOOL_NO 1,BASE_NO 2,IPO_FRAME #BASE}\n" + first +
+                                            select + second + select);
+    std::vector<std::string> names;
+    for (const Move& move : program.moves) names.push_back(program.frames[move.frame].work_offset);
+    CHECK(program.moves.back().tool == 1);
+    return names;
+  };
+  using Names = std::vector<std::string>;
+  CHECK(bases("", "FDAT_ACT.BASE_NO=3\n") == Names{"BASE_DATA[2]", "BASE_DATA[3]"});
+  CHECK(bases("FDAT_ACT.BASE_NO=3\n", "FDAT_ACT.BASE_NO = 4\n") == Names{"BASE_DATA[3]", "BASE_DATA[4]"});
+  CHECK(bases("FDAT_ACT.BASE_NO=n\n", "FDAT_ACT.BASE_NO=n\n") == Names{"$BASE 1", "$BASE 2"});
+  CHECK(bases("FDAT_ACT.IPO_FRAME=#BASE\n", "") == Names{"BASE_DATA[2]", "BASE_DATA[2]"});
+  const std::string move = "BAS(#FRAMES)\nLIN {X 5,Y 0,Z 0,A 0,B 0,C 0}\n";
+  for (const std::string data :
+       {"FDAT_ACT={TOOL_NO t,BASE_NO 2,IPO_FRAME #BASE}\n", "FDAT_ACT.TOOL_NO=2\n", "FDAT_ACT.IPO_FRAME=f\n",
+        "FDAT_ACT=FP1\nIF a THEN\nFDAT_ACT=FP2\nENDIF\n"}) {
+    CAPTURE(data);
+    CHECK(refusal_of(data + move).find("the tool of this motion is not known") != std::string::npos);
+  }
+}
+
 TEST_CASE("splines, jumps and a moved workpiece are refused with their line") {
   CHECK(refusal_of("\nSPLINE\n  SPL P1\nENDSPLINE\n").starts_with("job.src:3:1: error: SPLINE is a spline"));
   CHECK(refusal_of("SLIN {X 1}\n").starts_with("job.src:2:1: error: SLIN is a spline motion"));
