@@ -260,11 +260,12 @@ void apply_tool_length(const Block& block, Reading& r) {
   if (plain) find_length(r, number, length_mm);
   if (length_mm && plain && found->code->tenths == 440) *length_mm = -*length_mm;
   // Shop controls add relative Z to the programmed position, independent of the length.
-  const bool counts_on = r.dialect.macro_words && state.relative && r.sorted.word('Z') != nullptr;
+  const bool has_z = r.sorted.word('Z') != nullptr;
+  const bool counts_on = r.dialect.macro_words && state.relative && has_z;
   const bool changes = length_mm != state.tool_length_mm;
   // In a block without Z a shop control moves Z by the change, or shifts the coordinates: Fanuc parameter
   // 5006#6.
-  if (length_mm && state.tool_length_mm && changes && r.dialect.macro_words)
+  if (length_mm && state.tool_length_mm && changes && r.dialect.macro_words && !has_z)
     state.known[2] = false;
   else if (length_mm && state.tool_length_mm)
     state.position_mm.z() += *state.tool_length_mm - *length_mm;

@@ -75,7 +75,7 @@ TEST_CASE("on shop controls Z is not known behind a change between known tool le
     return program.moves.back().known_end[2];
   };
   for (const char* blocks : {"G43 H2", "G49", "G44 H1", "G49 X2.", "H2"}) CHECK_FALSE(known(blocks));
-  for (const char* blocks : {"G43 H1", "G43 H2 Z5.", "G49\nZ5."}) CHECK(known(blocks));
+  for (const char* blocks : {"G43 H1", "G43 H2 Z5.", "G49\nZ5.", "G91 G43 H2 Z-3."}) CHECK(known(blocks));
 }
 
 TEST_CASE("T and M6 load a tool, T alone does not") {
