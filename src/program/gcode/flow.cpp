@@ -3,10 +3,12 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <array>
 
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/other_moves.hpp"
 #include "program/gcode/moves/read_move.hpp"
+#include "program/gcode/offsets.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -139,23 +141,37 @@ std::string_view coordinates_left(const Reading& r) {
   return left != 0 ? "the coordinates are not those of the work offset" : std::string_view();
 }
 
+/// A state that the first pass begins with and a repetition may not.
+struct StateLeft {
+  CodeGroup group;
+  bool differs;
+  unsigned doubt;  ///< its bit of `unknown_modes`
+  std::string_view if_differs, if_unknown;
+};
+
 /// The state at the end of the program with which a repetition would differ from the first pass; else empty.
 std::string_view state_left(const Reading& r) {
-  const ModalState& state = r.state;
-  const auto left = [&](CodeGroup group, bool differs, unsigned doubt) {
-    return !sets(r, group) && (differs || (state.unknown_modes & doubt) != 0);
-  };
-  const std::string& offset = r.program.frames[state.frame].work_offset;
   if (const std::string_view coordinates = coordinates_left(r); !coordinates.empty()) return coordinates;
-  if (left(CodeGroup::offset, !offset.empty() && offset != "G54", unknown_offset))
-    return "the work offset is not G54";
-  if (left(CodeGroup::distance, state.relative, unknown_distance)) return "G91 is active";
-  if (left(CodeGroup::unit, state.unit != r.options.unit, unknown_unit)) return "the unit is another one";
-  if (left(CodeGroup::plane, state.normal != 2, unknown_plane)) return "G17 is not active";
-  if (left(CodeGroup::arc, state.absolute_centres != r.options.absolute_centres, unknown_centres))
-    return "the centres of arcs are read in another way";
-  if (left(CodeGroup::cutter, state.contour == Contour::inside, unknown_cutter))
-    return "G41 or G42 is active";
+  const ModalState& state = r.state;
+  const std::string& offset = r.program.frames[state.frame].work_offset;
+  const std::array states{StateLeft{CodeGroup::offset, !offset.empty() && offset != "G54", unknown_offset,
+                                    "the work offset is not G54", "the work offset is not known to be G54"},
+                          StateLeft{CodeGroup::distance, state.relative, unknown_distance, "G91 is active",
+                                    "G90 is not known to be active"},
+                          StateLeft{CodeGroup::unit, state.unit != r.options.unit, unknown_unit,
+                                    "the unit is another one", "the unit is not known to be the first one"},
+                          StateLeft{CodeGroup::plane, state.normal != 2, unknown_plane, "G17 is not active",
+                                    "G17 is not known to be active"},
+                          StateLeft{CodeGroup::arc, state.absolute_centres != r.options.absolute_centres,
+                                    unknown_centres, "the centres of arcs are read in another way",
+                                    "the centres of arcs are not known to be read in the first way"},
+                          StateLeft{CodeGroup::cutter, state.contour == Contour::inside, unknown_cutter,
+                                    "G41 or G42 is active", "G40 is not known to be active"}};
+  for (const StateLeft& left : states) {
+    if (sets(r, left.group)) continue;
+    if ((state.unknown_modes & left.doubt) != 0) return left.if_unknown;
+    if (left.differs) return left.if_differs;
+  }
   return !r.begin.changes_tool && state.tool != 0 ? "the tool was changed" : std::string_view();
 }
 
@@ -165,11 +181,12 @@ void check_repetition(const Block& block, const Reading& r) {
   if (why.empty()) return;
   for (const FoundM& m : r.sorted.m)
     if (m.action == MAction::return_from_call)
-      refuse_word(block, r, *m.word,
-                  fmt::format("M{} repeats the program, but at its end {}, which the blocks before its first "
-                              "move do not set again: the second pass cuts at another place; set this state "
-                              "before the first move, or end with M30",
-                              m.code, why));
+      refuse_word(
+          block, r, *m.word,
+          fmt::format("M{} repeats the program, but at its end {}, which the blocks before its first "
+                      "move do not set again: the second pass may cut at another place; set this state "
+                      "before the first move, or end with M30",
+                      m.code, why));
 }
 
 struct FlowLine {
@@ -263,7 +280,7 @@ void note_begin_of_program(const Block& block, Reading& r) {
   const bool all_axes = r.sorted.word('X') && r.sorted.word('Y') && r.sorted.word('Z');
   for (const FoundG& g : r.sorted.g) {
     r.begin.groups |= std::uint32_t{1} << static_cast<unsigned>(g.code->group);
-    if (g.code->action == Action::end_displace) r.begin.ended |= g.code->bit;
+    if (g.code->action == Action::end_displace && ends_all_axes(r, *g.code)) r.begin.ended |= g.code->bit;
     if (g.code->action == Action::shift && all_axes) r.begin.ended |= shift_bits;
   }
   r.begin.offsets = r.offsets;

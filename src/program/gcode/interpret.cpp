@@ -245,7 +245,6 @@ void apply_words(const Block& block, Reading& r) {
   r.angle = block.angle;
   sort_words(r.program.file, r.dialect, block, context_of(r), r.sorted);
   read_program_number(block, r);
-  note_begin_of_program(block, r);
   apply_parameter(block, r);
   remark_named_tool(block, r);
   if (has_other_codes(r.sorted)) {
@@ -256,6 +255,7 @@ void apply_words(const Block& block, Reading& r) {
     apply_tool_length(block, r);
     watch_other_axes(block, r);
   }
+  note_begin_of_program(block, r);
   apply_speed_words(block, r);
   if (r.dialect.sinumerik_words) apply_tool_edge(r);
   const std::size_t moves = r.program.moves.size();

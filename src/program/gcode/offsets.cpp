@@ -119,9 +119,7 @@ bool ends_displacement(Reading& r, const GCode& code) {
     state.mirrored_axes &= named_axes(r) != 0 ? ~named_axes(r) : Letters{0};
     return state.mirrored_axes == 0;
   }
-  constexpr Letters linear = letter_bit('X') | letter_bit('Y') | letter_bit('Z');
-  const bool presets = code.tenths == 921 && r.dialect.macro_words && named_axes(r) != 0;
-  return !presets || (named_axes(r) & linear) == linear;
+  return ends_all_axes(r, code);
 }
 
 /// G92 S2000 of shop controls: the highest speed of the spindle.
@@ -376,6 +374,12 @@ bool selects_axes(const Reading& r, const FoundG& smooth) {
 }
 
 }  // namespace
+
+bool ends_all_axes(const Reading& r, const GCode& code) {
+  constexpr Letters linear = letter_bit('X') | letter_bit('Y') | letter_bit('Z');
+  const bool of_named_axes = code.bit == mirrored || (code.tenths == 921 && r.dialect.macro_words);
+  return !of_named_axes || named_axes(r) == 0 || (named_axes(r) & linear) == linear;
+}
 
 bool takes_axis_words(const Reading& r) {
   if (r.state.entering_data) return true;

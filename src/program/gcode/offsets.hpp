@@ -34,4 +34,7 @@ void apply_parameter(const Block& block, Reading& reading);
 /// Whether axis words of the block belong to such a code, so that the block does not move the tool.
 bool takes_axis_words(const Reading& reading);
 
+/// Whether a code that ends a displacement ends it for X, Y and Z. G92.1 X0 and G50.1 X0 end that of X only.
+bool ends_all_axes(const Reading& reading, const GCode& code);
+
 }  // namespace counterflex

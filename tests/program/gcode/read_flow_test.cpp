@@ -167,6 +167,13 @@ TEST_CASE("M99 of a main program is refused if the repetition begins with anothe
   CHECK(refusal("G21\nG0 X0. Y0. Z5.\nG18\n") == "G17 is not active");
   CHECK(refusal(begin + "G1 X5. F100.\nT2 M6\n") == "the tool was changed");
   CHECK(refusal("O1\nG21 G90 G54 G17 T1 M6\nG0 X0. Y0. Z5.\nG1 X5. F100.\nT2 M6\n") == "none");
+  const std::string plain = "O1\nG21 G90 G54 G17 G1 F100.\nG10 L2 P1 X5. Y5. Z5.\nX0. Y0. Z5.\n";
+  CHECK(refusal(plain + "X5.\n") == "none");
+  CHECK(refusal(plain + "G10 L2 P1 X6.\nX5.\n") == "G10 has changed a work offset");
+  const std::string preset = "O1\nG21 G90 G54 G17 G92.1";
+  CHECK(refusal(preset + "\n" + begin.substr(3) + "G92 Y5.\n") == "none");
+  CHECK(refusal(preset + " X0\n" + begin.substr(3) + "G92 Y5.\n") == "G92 or G52 has set the coordinates");
+  CHECK(refusal("G21\nG0 X0. Y0. Z5.\n/G18\n") == "G17 is not known to be active");
   CHECK(refusal("G52 X0 Y0 Z0\n" + begin.substr(3) + "G52 X3.\n", "mach3") == "none");
   CHECK(diagnostic_of([&] { read(begin.substr(3) + "G52 X3.\nM47\n", "mach3"); }).find("M47 repeats") !=
         std::string::npos);
