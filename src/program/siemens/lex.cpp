@@ -20,6 +20,8 @@ bool has_digit_behind_letter(std::string_view name) {
 
 void lex_letter(Scanner& s);
 
+bool equals_follows(const Scanner& s, std::size_t behind);
+
 void state_machine_position(Scanner& s, std::string_view name) {
   Word& word = s.block.words.emplace_back();
   word.letter = 'G';
@@ -47,11 +49,23 @@ void lex_frame(Scanner& s) {
   }
 }
 
-/// The list in brackets, if there is one. Words behind it are not read.
+/// Whether only words with plain numbers that neither move nor call follow: "G40 G64 M8".
+bool only_plain_words_follow(Scanner s) {
+  for (s.skip_blanks(); s.at < s.end && s.peek() != ';'; s.skip_blanks()) {
+    if (std::string_view("DFGHMST").find(upper(s.peek())) == std::string_view::npos) return false;
+    const std::size_t number = ++s.at;
+    while (s.at < s.end && (is_digit(s.peek()) || s.peek() == '.')) ++s.at;
+    if (s.at == number || equals_follows(s, 0)) return false;
+  }
+  return true;
+}
+
+/// The list in brackets, if there is one. Words behind it that may move are not read.
 void skip_list(Scanner& s) {
   if (s.peek() == '(') skip_siemens_value(s);
-  s.skip_blanks();
-  if (s.at < s.end && s.peek() != ';') s.block.statement = Statement::not_read;
+  if (only_plain_words_follow(s)) return;
+  s.block.statement = Statement::not_read;
+  skip_siemens_rest(s);
 }
 
 void state(Scanner& s, Statement statement) {
@@ -63,7 +77,11 @@ void state(Scanner& s, Statement statement) {
   s.block.statement_is_bare = no_arguments || s.at == s.end || s.peek() == ';';
   const bool has_list = s.peek() == '(';
   if (statement == Statement::curve || (statement == Statement::smoothed && !has_list)) return;
-  if (statement == Statement::smoothed || statement == Statement::transform_off) skip_list(s);
+  if (statement == Statement::smoothed || statement == Statement::transform_off) {
+    skip_list(s);
+    s.block.statement_text = {begin, s.at};
+    return;
+  }
   s.at = begin;
   if (statement >= Statement::shift && statement <= Statement::added_turn)
     lex_frame(s);

@@ -294,11 +294,17 @@ bool has_words_before_statement(const Block& block) {
          });
 }
 
+/// RET.
+void end_by_statement(const Block& block, Reading& r) {
+  if (empty(block.block_delete) && (r.body.jumps || r.body.open.empty())) r.ended = true;
+}
+
 /// Whether the words move, and whether the statement acts, is not known.
 void read_words_before_statement(const Block& block, Reading& r) {
   r.sorted = {};
   read_anything(block, r, "axis words are before a statement that needs a block of its own");
   if (const std::uint16_t bit = displacement_of(block.statement)) displace_by_statement(block, r, bit);
+  if (block.statement == Statement::end) end_by_statement(block, r);
 }
 
 }  // namespace
@@ -340,8 +346,7 @@ void end_statement(const Block& block, Reading& r) {
     case Statement::data:
       return set_control_variables(block, r);
     case Statement::end:
-      if (empty(block.block_delete) && (r.body.jumps || r.body.open.empty())) r.ended = true;
-      return;
+      return end_by_statement(block, r);
     default:
       return;
   }

@@ -57,9 +57,10 @@ void end_before_word(const Scanner& s, std::size_t begin) {
   const std::string_view value = s.text.substr(begin, s.at - begin);
   if (plain_number(value) || std::string_view(")]\"'").find(value.back()) != std::string_view::npos) return;
   const std::string_view name = siemens_name_at(s);
-  s.refuse_at(s.at, fmt::format("'{}' is directly behind '{}': only behind a number or a bracket does a word "
-                                "need no blank; write a blank before '{}'",
-                                name, value, name));
+  s.refuse_at(s.at,
+              fmt::format("'{}' is directly behind '{}': only behind a plain number or a bracket does a word "
+                          "need no blank; write a blank before '{}'",
+                          name, value, name));
 }
 
 /// An assigned expression: values with operators between them.

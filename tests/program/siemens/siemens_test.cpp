@@ -468,7 +468,7 @@ TEST_CASE("siemens: a word directly behind an expression is refused") {
     CHECK(diagnostic_of([&] { siemens(text); }) ==
           "p.mpf:4:" + std::to_string(line.value.size()) + ": error: '" + line.word +
               "' is directly behind '" + value +
-              "': only behind a number or a bracket does a word need no blank; write a blank before '" +
+              "': only behind a plain number or a bracket does a word need no blank; write a blank before '" +
               line.word + "'");
   }
 }
@@ -699,6 +699,27 @@ TEST_CASE("siemens: words that only switch off or smooth move nothing") {
   }
   for (const std::string word : {"DIAMON", "TOROT", "PAROT", "CUT3DCC"})
     CHECK(siemens(std::string(siemens_start) + word + "\nG1 X5 F100\n").moves.back().fixed[0]);
+}
+
+TEST_CASE("siemens: G and M codes behind TRAFOOF and CYCLE832 act, and move nothing") {
+  const std::string start(siemens_start);
+  for (const std::string line :
+       {"TRAFOOF G40", "TRAFOOF M8", "CYCLE832(0.01,1,1) G64", "CYCLE832() G64 ; OFF"}) {
+    CAPTURE(line);
+    CHECK(all_known(siemens(start + line + "\nX5\n").moves.back().known_end));
+  }
+  CHECK(siemens(start + "TRAFOOF G91\nX5\nX5\n").moves.back().end_mm.x() == 10);
+  for (const std::string line : {"TRAFOOF G1 X5", "TRAFOOF L6", "TRAFOOF TRANS X5", "TRAFOOF M=QU(5) X1",
+                                 "CYCLE832(0.01,1,1) G0Z5", "CYCLE832(0.01,1,1) POCKET"}) {
+    CAPTURE(line);
+    CHECK_FALSE(all_known(siemens(start + line + "\nX5\n").moves.back().known_end));
+  }
+}
+
+TEST_CASE("siemens: RET behind axis words ends the program") {
+  const Program program = siemens(std::string(siemens_start) + "X5 RET\nX6\nX7\n");
+  CHECK(program.moves.back().fixed[0]);
+  CHECK(program.block_count == siemens(std::string(siemens_start) + "X5 RET\n").block_count);
 }
 
 TEST_CASE("siemens: a label that begins with REPEAT repeats nothing, and ANG=90 keeps its axis") {
