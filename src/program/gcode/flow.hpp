@@ -10,7 +10,7 @@ void read_flow(const Block& block, Reading& reading);
 /// Reads the O-number of a program: the first one, or that of a subprogram behind it.
 void read_program_number(const Block& block, Reading& reading);
 
-/// Notes the states that the block sets if it is before the first move.
+/// Notes the states that the block sets if it is before the first move. The codes of the block have acted.
 void note_begin_of_program(const Block& block, Reading& reading);
 
 /// M99: ends a subprogram, or repeats the program. Throws `InputError` if a repetition has another state.
