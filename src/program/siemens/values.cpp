@@ -6,6 +6,7 @@
 #include <string_view>
 
 #include "counterflex/files/text.hpp"
+#include "program/expand/control_flow.hpp"
 #include "program/siemens/names.hpp"
 
 namespace counterflex {
