@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
+#include <fmt/format.h>
 
 #include <algorithm>
 #include <cmath>
+#include <random>
 #include <string>
+#include <vector>
 
 #include "forces/sample_path.hpp"
 
@@ -231,4 +234,57 @@ TEST_CASE("an upright arc is in the air only where its lowest point is") {
   CHECK(forces_on(program, source).at(0, 0.5) == Vector6::Zero());
   source.air_above_mm = lowest + 1e-6;
   CHECK(forces_on(program, source).at(0, 0.5) == wrench(100, 0, 0));
+}
+
+TEST_CASE("the mean of a linear profile is nowhere larger than at breaks and ends, by what reports show") {
+  std::mt19937 random(7);
+  const auto number = [&](double from, double to) {
+    return std::uniform_real_distribution<double>(from, to)(random);
+  };
+  double largest = 0;
+  for (int trial = 0; trial < 60; ++trial) {
+    CAPTURE(trial);
+    const double blend = number(0.1, 5);
+    std::string rows = "s_mm,fx_N,fy_N,fz_N\n";
+    double s = 0;
+    while (s < 60) {
+      rows += fmt::format("{},{},{},{}\n", s, number(-900, 900), number(-900, 900), trial % 3 == 0 ? 7 : s);
+      s += number(0.05, trial % 2 == 0 ? 3 : 30);
+    }
+    rows += "60,0,0,0\n";
+    const double length = trial % 4 == 0 ? 1 : 20;
+    const auto forces = forces_on(straight(60, length), from_csv(linear + rows, blend * mm));
+    for (std::size_t i = 0; i < static_cast<std::size_t>(60 / length); ++i) {
+      Vector6 most = forces.at(i, 0).cwiseMax(forces.at(i, 1)),
+              least = forces.at(i, 0).cwiseMin(forces.at(i, 1));
+      double last = 0;
+      for (const double u : forces.breaks(i)) {
+        CHECK(u > last);
+        last = u;
+        most = most.cwiseMax(forces.at(i, u)), least = least.cwiseMin(forces.at(i, u));
+      }
+      for (int k = 1; k < 1000; ++k) {
+        const Vector6 F = forces.at(i, k / 1000.0);
+        largest = std::max({largest, (F - most).maxCoeff(), (least - F).maxCoeff()});
+      }
+    }
+  }
+  CHECK(largest > 0);
+  CHECK(largest < 0.0501);
+}
+
+TEST_CASE("with a blend a peak between two slopes of a profile has breaks, and a constant has none") {
+  const auto peak = forces_on(
+      straight(640, 640),
+      from_csv(linear + "s_mm,fx_N,fy_N,fz_N\n0,0,0,0\n100,0,0,0\n101,0,3000,0\n102,0,0,0\n640,0,0,0\n",
+               2 * mm));
+  std::vector<double> places = peak.breaks(0);
+  for (double& u : places) u *= 640;
+  REQUIRE(places.size() == 5);
+  for (std::size_t i = 0; i < 5; ++i) CHECK(places[i] == doctest::Approx(100 + static_cast<double>(i)));
+  CHECK(near(peak.at(0, 102.0 / 640), wrench(0, 1500, 0)));
+  const auto constant =
+      forces_on(straight(10, 1),
+                from_csv(linear + "s_mm,fx_N,fy_N,fz_N\n0,0.1,0,0\n3.3,0.1,0,0\n10,0.1,0,0\n", 2 * mm));
+  for (std::size_t i = 2; i < 10; ++i) CHECK(constant.breaks(i).empty());
 }

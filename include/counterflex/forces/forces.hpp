@@ -102,6 +102,9 @@ bool acts_at_platform(const ForceSource& source);
 /// Whether a rule's frame turns with the tool.
 bool needs_tool_axes(const ForceSource& source);
 
+/// Half of the last digit of forces (N) and moments (N m) in reports.
+inline constexpr double shown_force = 0.05, shown_moment = 0.005;
+
 struct ForceNote {
   int line = 0;
   std::string what;
@@ -228,8 +231,9 @@ class PathForces {
   bool at_platform() const { return at_platform_; }
 
   /// Fractions strictly inside a segment where the wrench has a corner or a step, increasing: no smooth
-  /// interpolation across them. With a blend these are the starts and ends of ramps; where the profile itself
-  /// only changes its slope the mean has no corner.
+  /// interpolation across them. With a blend these are the starts and ends of ramps, and where the profile
+  /// changes its slope and a blend behind it: between them the mean is a parabola. Where a component of a
+  /// parabola is larger or less inside than at both ends by what reports show is a fraction, too.
   std::vector<double> breaks(std::size_t segment) const;
   /// The same in `fractions`, whose memory is used again.
   void breaks(std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions) const;
@@ -258,6 +262,7 @@ class PathForces {
   void take_up(const OpenRun& before);
   void close_run(double blend);
   void find_corners(FeedRun& run);
+  void add_extremes(const Place& place, ForceCursor& cursor, std::vector<double>& fractions) const;
   void leave_tail(const Program& window, const Toolpath& path, double blend);
 
   bool at_platform_ = false;

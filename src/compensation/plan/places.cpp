@@ -69,7 +69,6 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
 // Whether the force inside a stretch is nowhere larger than at its ends by what reports show.
 bool is_largest_at_ends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                         ForceCursor& cursor) {
-  constexpr double shown_force = 0.05, shown_moment = 0.005;  // N, N m: half of the last digit
   const auto size = [](const Vector6& F) { return Eigen::Array2d(F.head<3>().norm(), F.tail<3>().norm()); };
   const Eigen::Array2d most =
       size(stretch.F0).max(size(stretch.F1)) + Eigen::Array2d(shown_force, shown_moment);

@@ -56,6 +56,12 @@ bool differ(const Vector6& A, const Vector6& B) {
   return (A - B).norm() > rounding * std::max(A.norm(), B.norm());
 }
 
+/// Whether the slope changes at the start of a piece, behind one with the slope `before`.
+bool bends(const Vector6& before, const ForcePiece& piece) {
+  const double change = (slope(piece) - before).norm() * (piece.s1 - piece.s0);
+  return change > rounding * std::max(piece.F0.norm(), piece.F1.norm());
+}
+
 /// The first index in [first, end) that is not `before` the wanted place, else `end`; `hint` is the previous
 /// result.
 template <class Before>
@@ -97,6 +103,19 @@ Vector6 mean(const std::vector<ForcePiece>& pieces, const FeedRun& run, double s
   // Within one piece the mean is the value in the middle, free of the rounding of long integrals.
   if (&first == &last) return part * value(first, (from + s) / 2);
   return (integral(last, s) - integral(first, from)) / run.blend;
+}
+
+/// f at both ends of [a, b], where it is linear between them; zero before the run.
+std::optional<std::pair<Vector6, Vector6>> linear_between(const std::vector<ForcePiece>& pieces,
+                                                          const FeedRun& run, double a, double b,
+                                                          std::size_t& hint) {
+  if (b <= run.s0 + joined_m) return std::pair(Vector6::Zero().eval(), Vector6::Zero().eval());
+  const double inside = (b - a) / 1000;  // a and b are rounded
+  const ForcePiece& first = piece_at(pieces, run, a + inside, Side::after, hint);
+  const ForcePiece& last = piece_at(pieces, run, b - inside, Side::before, hint);
+  const Vector6 at_b = value(last, b);
+  if (differ(value(first, b), at_b)) return std::nullopt;
+  return std::pair(value(first, a), at_b);
 }
 
 /// Whether the feed run of the previous window continues in this one.
@@ -216,7 +235,7 @@ void PathForces::find_corners(FeedRun& run) {
     const bool entry = i == run.first_piece;
     const Vector6 before = entry ? Vector6::Zero() : pieces_[i - 1].F1;
     const bool step = differ(before, pieces_[i].F0);
-    const bool bend = run.blend == 0 && !entry && differ(slope(pieces_[i - 1]), slope(pieces_[i]));
+    const bool bend = bends(entry ? Vector6::Zero() : slope(pieces_[i - 1]), pieces_[i]);
     if (step) {
       ++steps;
       steps_.push_back(pieces_[i].s0);
@@ -297,13 +316,38 @@ void PathForces::breaks(std::size_t segment, ForceCursor& cursor, std::vector<do
     for (std::size_t i = hint; i < run.end_corner && corners_[i] + shift < place.s1; ++i)
       add(corners_[i] + shift);
   };
-  // A step at p changes the slope of the mean at p and at p + b.
+  // A step at p changes the slope of the mean at p and at p + b, a bend changes its curvature there.
   add_shifted(0, cursor.corner);
   if (run.blend > 0) add_shifted(run.blend, cursor.ramp_corner);
-  if (fractions.size() < 2) return;
-  std::sort(fractions.begin(), fractions.end());
   const auto same = [](double a, double b) { return b - a < same_fraction; };
+  std::sort(fractions.begin(), fractions.end());
   fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+  if (run.blend == 0 || is_linear_between_breaks_) return;
+  add_extremes(place, cursor, fractions);
+  std::sort(fractions.begin(), fractions.end());
+}
+
+// Between corners the mean is a parabola of the path length. Adds the fractions where a component is larger
+// or less there than at both ends by what reports show.
+void PathForces::add_extremes(const Place& place, ForceCursor& cursor, std::vector<double>& fractions) const {
+  const FeedRun& run = runs_[place.run];
+  const auto path_length = [&](double u) { return place.s0 + u * (place.s1 - place.s0); };
+  const std::size_t corners = fractions.size();
+  for (std::size_t k = 0; k <= corners; ++k) {
+    const double u0 = k == 0 ? 0 : fractions[k - 1], u1 = k == corners ? 1 : fractions[k];
+    const double a = path_length(u0), b = path_length(u1);
+    const auto enters = linear_between(pieces_, run, a, b, cursor.to);
+    const auto leaves = linear_between(pieces_, run, a - run.blend, b - run.blend, cursor.from);
+    if (!enters || !leaves) continue;  // axes that turn: places are at angles
+    const Vector6 slope_a = (enters->first - leaves->first) / run.blend,
+                  slope_b = (enters->second - leaves->second) / run.blend;
+    for (int i = 0; i < 6; ++i) {
+      if (slope_a[i] * slope_b[i] >= 0) continue;
+      const double t = slope_a[i] / (slope_a[i] - slope_b[i]);
+      const double beyond = std::min(std::abs(slope_a[i]) * t, std::abs(slope_b[i]) * (1 - t)) * (b - a) / 2;
+      if (beyond > (i < 3 ? shown_force : shown_moment)) fractions.push_back(u0 + t * (u1 - u0));
+    }
+  }
 }
 
 }  // namespace counterflex
