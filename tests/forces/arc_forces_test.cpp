@@ -1,8 +1,11 @@
 #include <doctest/doctest.h>
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
+#include <vector>
 
+#include "forces/sample_cut.hpp"
 #include "forces/sample_path.hpp"
 
 using namespace counterflex;
@@ -139,4 +142,52 @@ TEST_CASE("a force in the tool frame follows a turning tool, without corners") {
   CHECK(forces.breaks(0).empty());
   CHECK(forces.breaks(1).empty());
   CHECK(forces.jumps() == 1);
+}
+
+TEST_CASE("on an upright arc the force of a cut steps where the feed is 10 degrees off the tool axis") {
+  // In the plane of X and Z about the origin, at angles from straight down towards X, in a frame that is
+  // tilted about X. In the second case the feed is along the axis for two degrees alone.
+  struct Step {
+    double angle_deg;
+    int to_steep;  // direction
+  };
+  struct Case {
+    double from_deg, to_deg, tilt_deg;
+    std::vector<Step> steps;
+  };
+  const double off = std::acos(std::cos(10 * deg) / std::cos(9.95 * deg)) / deg;
+  CuttingModel model = test::sample_cut();
+  model.spindle_rpm = 6000;
+  ForceSource source;
+  source.rules = {{"cut", {}, {}, respond(model)}};
+  for (const Case& one :
+       {Case{0, 180, 0, {{10, -1}, {170, 1}}}, Case{-61.3, 60, 9.95, {{-off, 1}, {off, -1}}}}) {
+    CAPTURE(one.tilt_deg);
+    const auto place = [](double angle_deg) {
+      return Vector3(-150 * std::cos(angle_deg * deg), 0, -150 * std::sin(angle_deg * deg));
+    };
+    const Program program =
+        ProgramBuilder(place(one.from_deg)).feed(place(one.to_deg), 600).about({0, 0, 0}, 1, true).program;
+    const double sweep = one.to_deg - one.from_deg, blend = 2 / (150 * sweep * deg);
+    const Pose X_MW{exp_so3({one.tilt_deg * deg, 0, 0}), Vector3::Zero()};
+    source.blend = 0;
+    const auto forces = forces_on(program, source, X_MW);
+    source.blend = 2 * mm;
+    const auto blended = forces_on(program, source, X_MW);
+    const auto breaks_at = [](const PathForces& f, double u) {
+      return std::ranges::any_of(f.breaks(0), [&](double v) { return std::abs(u - v) < 1e-6; });
+    };
+    for (const Step& step : one.steps) {
+      CAPTURE(step.angle_deg);
+      const double u = (step.angle_deg - one.from_deg) / sweep, beside = u - step.to_steep * 1e-5;
+      CHECK(breaks_at(forces, u));
+      CHECK(breaks_at(blended, u));
+      CHECK(breaks_at(blended, u + blend));
+      CHECK(forces.at(0, u + step.to_steep * 1e-5) == Vector6::Zero());
+      const double slope = -std::cos(one.tilt_deg * deg) * std::cos((one.from_deg + beside * sweep) * deg);
+      const double size = cutting_force(model, 0.01, 0, slope).F.head<3>().norm();
+      CHECK(size > 70);
+      CHECK(forces.at(0, beside).head<3>().norm() == doctest::Approx(size).epsilon(1e-3));
+    }
+  }
 }

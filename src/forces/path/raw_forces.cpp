@@ -6,6 +6,7 @@
 #include <algorithm>
 #include <cassert>
 #include <cmath>
+#include <functional>
 
 #include "counterflex/toolpath/reach.hpp"
 #include "forces/path/profile/profile_cover.hpp"
@@ -66,6 +67,42 @@ ForceNote loss_at(int line) {
 Vector3 way_of_hole(const Move& move) {
   const bool upwards = move.cycle && move.cycle->bottom_mm > move.cycle->retract_mm;
   return (upwards ? 1 : -1) * Vector3::UnitZ();
+}
+
+using SlopeAt = std::function<double(double)>;
+
+bool is_steep(double slope) {
+  return std::abs(slope) > steepest_ramp;
+}
+
+/// Adds the places between increasing `places` where a slope is steepest, if it is steep there.
+void add_steepest(const SlopeAt& slope, std::vector<double>& places) {
+  const auto size = [&](double s) { return std::abs(slope(s)); };
+  const std::size_t count = places.size();
+  for (std::size_t k = 0; k + 1 < count; ++k) {
+    double a = places[k], b = places[k + 1];
+    if (is_steep(slope(a)) || is_steep(slope(b))) continue;
+    while (b - a > shortest_piece) {
+      const double c = a + (b - a) / 3, d = b - (b - a) / 3;
+      (size(c) < size(d) ? a : b) = size(c) < size(d) ? c : d;
+    }
+    if (is_steep(slope(a))) places.push_back(a);
+  }
+  std::ranges::sort(places);
+}
+
+/// Two places side by side, one on either side of the steepest ramp.
+struct SlopeLimit {
+  double before = 0, after = 0;
+};
+std::optional<SlopeLimit> limit_between(const SlopeAt& slope, double from, double to) {
+  const bool begins_steep = is_steep(slope(from));
+  if (begins_steep == is_steep(slope(to))) return std::nullopt;
+  while (to - from > shortest_piece) {
+    const double middle = (from + to) / 2;
+    (is_steep(slope(middle)) == begins_steep ? from : to) = middle;
+  }
+  return SlopeLimit{from, to};
 }
 
 }  // namespace
@@ -251,7 +288,8 @@ void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
   append_profile_pieces(profile, here, s0, s1, stretch_.pieces);
 }
 
-// If the slope changes along the segment, as on an upright arc, the force is linear between close places.
+// If the slope changes along the segment, as on an upright arc, the force is linear between close places. It
+// steps where the feed comes along the tool axis.
 void RawForces::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
                          const AxesAlong& axes) {
   const Segment& segment = path_.segments[i];
@@ -261,20 +299,31 @@ void RawForces::give_cut(const CutResponse& response, double s0, double s1, std:
     return direction_at(segment.wanted, u).dot(axes.at(u, 1).R_MF.col(2));
   };
   const auto force = [&](double s) { return cutting_force(response, segment.feed_m_s, rpm, slope(s)); };
-  const int places = axes.turn() ? slopes_per_piece * axes.pieces() : 1;
-  const auto place = [&](int k) { return k == places ? s1 : s0 + (s1 - s0) * k / places; };
+  const int count = axes.turn() ? slopes_per_piece * axes.pieces() : 1;
+  std::vector<double> places;
+  for (int k = 0; k <= count; ++k) places.push_back(k == count ? s1 : s0 + (s1 - s0) * k / count);
   const double middle = slope((s0 + s1) / 2);
-  bool even = true;
-  for (int k = 0; k <= places && even; ++k) even = std::abs(slope(place(k)) - middle) < same_slope;
-  const int parts = even ? 1 : places;
+  const bool even =
+      std::ranges::all_of(places, [&](double s) { return std::abs(slope(s) - middle) < same_slope; });
   stretch_.pieces.clear();
   stretch_.frame = ForceFrame::feed;
   stretch_.why = force((s0 + s1) / 2).why;
-  for (int k = 0; k < parts; ++k) {
-    const double from = place(k), to = even ? s1 : place(k + 1);
-    const CutForce a = force(even ? (s0 + s1) / 2 : from), b = even ? a : force(to);
+  if (even) {
+    const Vector6 F = force((s0 + s1) / 2).F;
+    stretch_.pieces.push_back({s0, s1, F, F, Vector6::Zero()});
+    return;
+  }
+  add_steepest(slope, places);
+  const auto give = [&](double from, double to, double end, bool goes_on) {
+    const CutForce a = force(from), b = force(to);
     if (a.why.empty() || b.why.empty()) stretch_.why.clear();
-    stretch_.pieces.push_back({from, to, a.F, b.F, Vector6::Zero(), k > 0});
+    stretch_.pieces.push_back({from, end, a.F, b.F, Vector6::Zero(), goes_on});
+  };
+  for (std::size_t k = 1; k < places.size(); ++k) {
+    const double from = places[k - 1], to = places[k];
+    const auto limit = limit_between(slope, from, to);
+    if (limit) give(from, limit->before, limit->after, k > 1);
+    give(limit ? limit->after : from, to, to, !limit && k > 1);
   }
 }
 
