@@ -145,7 +145,7 @@ Matrix3 orientation_at(const Turn& turn, double u) {
 }
 
 Turn stretch(const Turn& turn, double u0, double u1) {
-  Turn part{orientation_at(turn, u0), orientation_at(turn, u1), turn.angles};
+  Turn part{orientation_at(turn, u0), orientation_at(turn, u1), turn.angles, turn.axis_in};
   if (!turn.angles) return part;
   const Vector3 way_deg = turn.angles->end_deg - turn.angles->start_deg;
   part.angles->start_deg += u0 * way_deg;

@@ -141,6 +141,21 @@ TEST_CASE("an axis turns in the plane of both ends") {
   CHECK((orientation_at(frame * turn, 0.3) - frame * orientation_at(turn, 0.3)).norm() < 1e-14);
 }
 
+TEST_CASE("a stretch of a turn is a part of it") {
+  const OrientationNumbers start{0.6, 0, 0.8}, end{0, 0.6, 0.8};
+  Turn about_one_axis{exp_so3({0.1, 0.2, 0.3}), exp_so3({-0.5, 0.9, 0.1})},
+      by_angles = about_one_axis, by_axis{rotation_of(Form::axis, start), rotation_of(Form::axis, end)};
+  by_angles.angles = Turn::Angles{.start_deg = Vector3(10, 20, 30), .end_deg = Vector3(-40, 70, 200)};
+  by_angles.start = orientation_at(by_angles, 1e-300), by_angles.end = orientation_at(by_angles, 1 - 1e-16);
+  by_axis.axis_in = Matrix3::Identity();
+  for (const Turn& turn : {about_one_axis, by_angles, by_axis, exp_so3({0.3, 0.2, 0.1}) * by_axis})
+    for (const double u : {0.0, 0.3, 0.5, 1.0}) {
+      CHECK((orientation_at(stretch(turn, 0, 1), u) - orientation_at(turn, u)).norm() < 1e-14);
+      CHECK((orientation_at(stretch(turn, 0.2, 0.7), u) - orientation_at(turn, 0.2 + 0.5 * u)).norm() <
+            1e-14);
+    }
+}
+
 TEST_CASE("z of the tool frame has the direction of the spindle in the control's tool frame") {
   const std::pair<SpindleAxis, Vector3> axes[] = {
       {SpindleAxis::z, Vector3(0, 0, 1)}, {SpindleAxis::minus_z, Vector3(0, 0, -1)},
