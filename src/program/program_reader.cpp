@@ -232,7 +232,7 @@ struct ProgramReader::State {
     return whole > 0;
   }
 
-  bool next() {
+  bool next(std::size_t part) {
     Program& p = program();
     restart_count();
     blocks->begin_window(behind_read, std::exchange(p.after, std::nullopt));
@@ -249,7 +249,7 @@ struct ProgramReader::State {
     }
     if (begun && all_read && text.empty()) return false;
     begun = true;
-    read_until_end(least_moves);
+    read_until_end(least_moves / part);
     return true;
   }
 
@@ -276,8 +276,8 @@ ProgramReader::ProgramReader(FileReader& bytes, const std::string& file, const R
 ProgramReader::~ProgramReader() = default;
 ProgramReader::ProgramReader(ProgramReader&&) noexcept = default;
 
-bool ProgramReader::next() {
-  return state_->next();
+bool ProgramReader::next(std::size_t part) {
+  return state_->next(part);
 }
 
 bool ProgramReader::extend() {

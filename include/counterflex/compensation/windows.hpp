@@ -112,8 +112,7 @@ Directions first_directions(const RunInput& input, ProgramReader& reader);
 /// Reads the windows of a run, and carries path and forces from one to the next.
 class JobWindows {
  public:
-  JobWindows(const RunInput& input, ProgramReader& reader)
-      : input_(input), reader_(reader), directions_{input.first_directions, {}} {}
+  JobWindows(const RunInput& input, ProgramReader& reader);
 
   /// Reads the next window, which is as long as its forces need; false at the program's end. The memory of
   /// `window` is used again. Throws `InputError` as reader and forces do.
@@ -127,6 +126,7 @@ class JobWindows {
   const RunInput input_;
   ProgramReader& reader_;
   std::size_t moves_ = 0;  // before the window
+  std::size_t part_;       // of the size of windows without a log of forces
   PathEnd path_end_{};
   ForceTail forces_{};
   std::optional<TipPosition> tip_{};

@@ -238,6 +238,9 @@ class PathForces {
   /// The same in `fractions`, whose memory is used again.
   void breaks(std::size_t segment, ForceCursor& cursor, std::vector<double>& fractions) const;
 
+  /// How many breaks all segments have, about.
+  std::size_t count_of_breaks() const { return 2 * corners_.size(); }
+
   const std::vector<ForceNote>& notes() const { return notes_; }
 
   /// Feed moves of the window without a force, in order.

@@ -33,9 +33,9 @@ class ProgramReader {
   ~ProgramReader();
   ProgramReader(ProgramReader&&) noexcept;
 
-  /// Reads the next window. At the end of the program, returns false and sets an empty window. Throws
-  /// `InputError` as `read_program` does.
-  bool next();
+  /// Reads the next window. It may end at a `part` of the least size. At the end of the program, returns
+  /// false and sets an empty window. Throws `InputError` as `read_program` does.
+  bool next(std::size_t part = 1);
 
   /// Extends the window to the next place at which it may end. False at the end of the program.
   bool extend();
