@@ -41,7 +41,8 @@ double radius_at(const Arc& arc, const Vector3& p);
 /// `length` of an arc.
 double length_of_arc(const Curve& curve);
 
-/// Of a spiral to within a millionth of the change of its radius.
+/// Of a spiral with its mean radius. It is too short by less than a millionth of the change of its radius
+/// where the radius changes by 1 % in a radian, and by less than 1 % of the change where it doubles.
 inline double length(const Curve& curve) {
   return curve.arc ? length_of_arc(curve) : (curve.end - curve.start).norm();
 }

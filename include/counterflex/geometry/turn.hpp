@@ -66,7 +66,7 @@ Matrix3 orientation_at(const Turn& turn, double u);
 /// The turn between fractions `u0` < `u1`.
 Turn stretch(const Turn& turn, double u0, double u1);
 
-/// By how much it turns (rad); the sum of the angles where they are interpolated, which is not less.
+/// The angle between its ends (rad); the sum of the angles where they are interpolated, which is not less.
 double angle_of(const Turn& turn);
 
 /// The turn in frame A of one given in frame B.

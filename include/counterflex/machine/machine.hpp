@@ -102,6 +102,9 @@ struct ErrorTable {
   std::optional<double> sigma{};
 };
 
+/// How many numbered actuators a machine may have.
+inline constexpr std::size_t most_actuators = 64;
+
 /// A joint whose value is commanded. Actuators are numbered in the order of chains, then of elements (a
 /// group's branches in order, at the place of the group). An actuator with a `program_axis` has no number:
 /// the program gives its value, which is constant along a program, and it is a fixed transform at `home`.

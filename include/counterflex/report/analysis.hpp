@@ -102,7 +102,7 @@ AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const
 std::string to_json(const AnalysisReport& report);
 
 /// Tables for people: deviations of all poses, loads by chain, actuators, corrected targets, stiffness.
-/// ASCII, at most 100 columns wide.
+/// ASCII and at most 100 columns wide, but for names.
 std::string to_text(const AnalysisReport& report);
 
 /// How the table of force curves begins.

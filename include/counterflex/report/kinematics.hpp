@@ -44,7 +44,7 @@ struct KinematicsReport {
 /// "counterflex-kinematics 1" (programs/guide/poses.md), indented by two spaces, one newline at the end.
 std::string to_json(const KinematicsReport& report);
 
-/// One block for each place. ASCII, at most 100 columns wide.
+/// One block for each place. ASCII and at most 100 columns wide, but for names.
 std::string to_text(const KinematicsReport& report);
 
 }  // namespace counterflex

@@ -22,8 +22,8 @@ inline constexpr double least_arm_margin = 1 * deg;
 /// Three margins of a chain of six rotary actuators: the wrist (axes 4 and 6 in line), the elbow (the arm
 /// stretched or folded) and the shoulder. The last three axes meet in a point, the centre of the wrist, whose
 /// shoulder changes on axis 1; or axes 2, 3 and 4 are parallel, and the shoulder changes where axes 5 and 6
-/// meet in the plane of axes 1 and 2. None for another machine, and none where it is `singular`. `nominal`: a
-/// nominal configuration.
+/// meet in the plane of axes 1 and 2. None for another machine. Zero where the configurations meet: it is
+/// `singular` there. `nominal`: a nominal configuration.
 std::optional<std::array<ArmMargin, 3>> arm_margins(const Model& model, const Configuration& nominal);
 
 /// The least of them.

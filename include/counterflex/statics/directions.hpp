@@ -8,10 +8,8 @@ namespace counterflex {
 
 /// The direction in which each actuator moves or moved last. Part of a request: an answer depends on it.
 struct Directions {
-  static constexpr std::size_t most = 64;  ///< actuators
-
-  std::uint64_t forward = 0,
-                backward = 0;  ///< a bit for each actuator; neither: its direction is not known
+  /// A bit for each of `most_actuators`; neither: its direction is not known.
+  std::uint64_t forward = 0, backward = 0;
 
   /// 1, -1, or 0 where it is not known.
   int of(std::size_t actuator) const {

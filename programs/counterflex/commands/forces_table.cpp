@@ -82,9 +82,10 @@ std::string table_head(const std::string& program, bool at_platform) {
 }
 
 std::string table_row(const MoveForce& move) {
-  std::string text = fmt::format("{:>7} {:>5} {:>11.3f} {:>9.6g} {:>7.6g} ", move.line,
+  const auto if_known = [](double number) { return number == 0 ? "-" : fmt::format("{:.6g}", number); };
+  std::string text = fmt::format("{:>7} {:>5} {:>11.3f} {:>9} {:>7} ", move.line,
                                  move.tool == 0 ? "-" : fmt::format("T{}", move.tool), move.length / mm,
-                                 move.feed_m_s / mm * 60, move.spindle_rpm);
+                                 if_known(move.feed_m_s / mm * 60), if_known(move.spindle_rpm));
   text += move.feed_per_tooth == 0 ? fmt::format("{:>8}", "-")
                                    : fmt::format("{:>8.4f}", move.feed_per_tooth / mm);
   if (!move.why.empty()) return text + "   none: " + move.why + "\n";

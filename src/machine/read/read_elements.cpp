@@ -71,6 +71,10 @@ Element read_error(const toml::table& table, Expansion& expansion) {
 Element read_actuator_element(const toml::table& table, Expansion& expansion) {
   const Source& source = expansion.source;
   Actuator actuator = read_actuator(table, reading_of(expansion), expansion.library.actuators);
+  if (expansion.library.actuators.kinds.size() > most_actuators)
+    source.fail(
+        *table.get("actuator"),
+        fmt::format("the machine has more than {0} actuators; at most {0} are allowed", most_actuators));
   if (const toml::node* node = table.get("error_table")) {
     const std::string name = as_text(*node, "error_table", source);
     actuator.errors = checked_for(
