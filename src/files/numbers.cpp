@@ -3,6 +3,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <stdexcept>
 
 #include "counterflex/files/text.hpp"
 
@@ -29,8 +30,9 @@ std::optional<long> read_tool_number(std::string_view text) {
 
 std::string format_fixed(double value, int decimals) {
   char buffer[std::numeric_limits<double>::max_exponent10 + 64];
-  const auto end =
-      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals).ptr;
+  const auto [end, error] =
+      std::to_chars(buffer, buffer + sizeof buffer, value, std::chars_format::fixed, decimals);
+  if (error != std::errc{}) throw std::length_error("format_fixed: too many decimals");
   std::string text(buffer, end);
   const bool zero = std::none_of(text.begin(), text.end(), [](char c) { return c >= '1' && c <= '9'; });
   if (zero && text.front() == '-') text.erase(0, 1);

@@ -9,6 +9,7 @@
 #include "counterflex/files/text.hpp"
 #include "program/guard/guard_mark.hpp"
 #include "program/text/lex.hpp"
+#include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -145,6 +146,8 @@ bool take_digits(WordScanner& s, KlartextWord& word, bool negative) {
     if (!mark) ++digits, word.decimals += point ? 1 : 0;
   }
   if (digits == 0) return false;
+  if (word.decimals > most_decimals)
+    refuse_klartext(s.text, s.file, s.block, word.span.begin, too_many_decimals(word.key, word.decimals));
   const auto value = read_number(dense);
   if (!value || std::abs(*value) > 1e12)
     refuse_klartext(s.text, s.file, s.block, word.span.begin,

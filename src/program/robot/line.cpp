@@ -5,6 +5,7 @@
 #include "counterflex/files/input_error.hpp"
 #include "counterflex/files/text.hpp"
 #include "program/guard/guard_mark.hpp"
+#include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -75,7 +76,7 @@ std::optional<RobotNumber> number_at(std::string_view text, std::size_t at) {
     number.decimals = static_cast<int>(end - fraction);
     digits += end - fraction;
   }
-  if (digits == 0) return std::nullopt;
+  if (digits == 0 || number.decimals > most_decimals) return std::nullopt;
   end = behind_exponent(text, end);
   if (end < text.size() && (is_identifier_character(text[end]) || text[end] == '.')) return std::nullopt;
   const auto value = read_number(text.substr(at, end - at));

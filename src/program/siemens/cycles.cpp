@@ -8,6 +8,7 @@
 #include "program/gcode/moves/read_move.hpp"
 #include "program/gcode/remarks.hpp"
 #include "program/gcode/words/modal_words.hpp"
+#include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -90,6 +91,7 @@ std::optional<Argument> number_at(std::string_view text, const ArgumentList& cal
   if (!is_plain(number)) return std::nullopt;
   const std::size_t point = number.find('.');
   const int decimals = point == std::string_view::npos ? 0 : static_cast<int>(number.size() - point - 1);
+  if (decimals > most_decimals) return std::nullopt;
   return Argument{{span, decimals}, *read_number(number)};
 }
 

@@ -9,6 +9,7 @@
 #include "counterflex/files/text.hpp"
 #include "program/guard/guard_mark.hpp"
 #include "program/siemens/lex.hpp"
+#include "program/text/number_style.hpp"
 #include "program/text/scanner.hpp"
 
 namespace counterflex {
@@ -31,6 +32,8 @@ double value_of_many_digits(const Scanner& s, const Word& word, int digits) {
   for (const char c : part(s.text, word.number))
     if (!is_blank(c)) dense += c;
   const std::optional<double> value = read_number(dense);
+  if (word.decimals > most_decimals)
+    s.refuse_at(word.span.begin, too_many_decimals({&word.letter, 1}, word.decimals));
   if (!value || std::abs(*value) > largest_number)
     s.refuse_at(word.span.begin, fmt::format("{}: a number of {} digits is too long", word.letter, digits));
   return *value;

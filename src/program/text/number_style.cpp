@@ -1,5 +1,7 @@
 #include "program/text/number_style.hpp"
 
+#include <fmt/format.h>
+
 #include <algorithm>
 #include <cstdint>
 #include <cstring>
@@ -113,6 +115,11 @@ char* put_steps(std::int64_t whole, int decimals, char* to) {
   *point = '.';
   put_digits(steps - before_point * power, decimals, point + 1 + decimals);
   return point + 1 + decimals;
+}
+
+std::string too_many_decimals(std::string_view word, int decimals) {
+  return fmt::format("{}: a number with {} decimals; at most {} are allowed: shorten it", word, decimals,
+                     most_decimals);
 }
 
 std::string inserted_number(double value, int decimals) {

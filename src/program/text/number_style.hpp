@@ -9,6 +9,13 @@
 
 namespace counterflex {
 
+/// Most digits behind the decimal point of a number of a program, far more than a double has. `format_fixed`
+/// can write this many.
+inline constexpr int most_decimals = 60;
+
+/// The message about a word with more than `most_decimals`.
+std::string too_many_decimals(std::string_view word, int decimals);
+
 /// Appends `value` in the style of the number `original`: its sign style ("+1"), its leading zero or none
 /// (".5"), its decimals or more, up to `decimals`, if the value needs them. Always with a decimal point.
 void append_changed_number(std::string_view original, double value, int decimals, std::string& text);

@@ -65,6 +65,8 @@ TEST_CASE(
   CHECK(klartext_refusal({"L X1 M399999999990"}) ==
         "p.ngc:2:8: error: M399999999990 is not a code: expected an integer from 0 to 99999");
   CHECK(klartext_refusal({"L X1e5"}) == "p.ngc:2:7: error: X1e5: a number has no exponent here");
+  CHECK(klartext_refusal({"L Y1 X0," + std::string(61, '0')}) ==
+        "p.ngc:2:8: error: X: a number with 61 decimals; at most 60 are allowed: shorten it");
   CHECK(klartext_refusal({"L X100000"}) == "p.ngc:2:5: error: X100000: coordinates are at most 99999.9999");
   CHECK(klartext_refusal({"CYCL DEF 7.1 Xnan"}) == "p.ngc:2:16: error: X has no number: 'nan' follows it");
   CHECK(klartext_refusal({"<<<<<<< mine"}).starts_with("p.ngc:2:3: error: '<<<<<<<' is a conflict marker"));

@@ -44,4 +44,6 @@ TEST_CASE("a plain number has a value, its digits, and nothing that continues it
     CAPTURE(text);
     CHECK(!number(text));
   }
+  CHECK(number("0." + std::string(60, '1'))->decimals == 60);
+  CHECK(!number("0." + std::string(61, '1')));
 }

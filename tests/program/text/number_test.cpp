@@ -55,6 +55,12 @@ TEST_CASE(
   }
 }
 
+TEST_CASE("a number with the most decimals that are read is written with as many") {
+  const std::string zeros(57, '0');
+  CHECK(with_last_move("G21 G0 X-999999.000" + zeros + "\n", {.end_mm = {-999999.125, 0, 0}}) ==
+        "G21 G0 X-999999.125" + zeros + "\n");
+}
+
 TEST_CASE("a number with blanks in it has the same value, wherever the line ends") {
   for (const std::string number : {"12.75", "-12.75", "+0.125", ".5", "-.5", "7.", "1234567890.125"}) {
     std::string spaced;
