@@ -105,6 +105,7 @@ void write_curve(const AnalysisReport& report, const Options& options) {
   if (!options.output) return;
   FileWriter file(*options.output);
   file.write(to_csv(report));
+  check_output(options, curve_mark);  // again: a foreign file may have appeared
   publish_together({&file});
 }
 

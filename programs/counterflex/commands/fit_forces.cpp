@@ -307,6 +307,7 @@ std::optional<ErrorKind> fit_forces(const Options& options, Console& console) {
     output.emplace(*options.output);
     output->write(fitted);
   }
+  check_fit_output(options);  // again: a foreign file may have appeared
   publish_together({if_any(output)});
   console.finish_warnings();
   const std::string table = fit_text(input, fit);

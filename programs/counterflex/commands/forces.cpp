@@ -209,6 +209,7 @@ std::optional<ErrorKind> run_forces(const Options& options, Console& console) {
       [&](const ForceSource&, const Program&, const Toolpath&, const std::vector<MoveForce>& moves) {
         for (const MoveForce& move : moves) listing->add(move);
       });
+  check_output(options, profile_mark);  // again: a foreign file may have appeared
   listing->finish(console);
   console.finish_warnings();
   return std::nullopt;

@@ -65,6 +65,7 @@ void write_files(const Options& options, const MachineInput& machine, const Iden
     page_file.emplace(files.page);
     page_file->write(identification_page(found, machine.machine.name, data));
   }
+  output_files(options);  // again: a foreign file may have appeared
   publish_together({if_any(machine_file), if_any(json_file), if_any(page_file)});
   if (files.machine == "-") return;
   if (options.json) return write_result(to_json(found));

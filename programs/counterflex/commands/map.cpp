@@ -138,6 +138,7 @@ void write_map(const WorkspaceMap& map, const Options& options) {
   std::optional<FileWriter> table, picture;
   if (options.output) table.emplace(*options.output).write(to_csv(map));
   if (options.map.plot) picture.emplace(*options.map.plot).write(map_picture(map));
+  check_map_outputs(options);  // again: a foreign file may have appeared
   publish_together({if_any(table), if_any(picture)});
 }
 

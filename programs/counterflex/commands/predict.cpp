@@ -11,7 +11,7 @@ std::optional<ErrorKind> run_predict(const Options& options, Console& console) {
         ErrorKind::usage, {},
         "--offsets keeps the program, and --free spin changes its targets; leave one of them out");
   const OutputPaths paths = output_paths(options);
-  refuse_foreign_outputs(paths, options);
+  refuse_foreign_outputs(paths);
   return replacing(paths, console, [&] {
     return predict_run(options, *prepare_run(options, console), paths, console,
                        [&](const Run& run, const RunEnd& end, const RunFiles& files) {

@@ -25,7 +25,7 @@ std::vector<std::string> lists_beside_corrected(const Options& options) {
 
 std::optional<ErrorKind> run_verify(const Options& options, Console& console) {
   const OutputPaths paths = output_paths(options);
-  refuse_foreign_outputs(paths, options);
+  refuse_foreign_outputs(paths);
   return replacing(paths, console, [&] {
     const auto run = prepare_run(options, console);
     ProgramFile corrected =

@@ -115,7 +115,7 @@ void finish_program(const Options& options, Run& run, const PointCount& points, 
 std::optional<ErrorKind> compensate_program(const Options& options, Console& console,
                                             const ReportEnd& report_end) {
   const OutputPaths paths = output_paths(options);
-  refuse_foreign_outputs(paths, options);
+  refuse_foreign_outputs(paths);
   return compensate_run(options, *prepare_run(options, console), paths, console, report_end);
 }
 

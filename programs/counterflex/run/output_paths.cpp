@@ -41,6 +41,10 @@ void check_place(const std::string& path, const std::vector<std::string>& made =
                      fmt::format("cannot write to '{}': it is not the name of a file", path));
   const fs::path folder = fs::path(path).parent_path();
   const bool is_made = std::find(made.begin(), made.end(), folder.generic_string()) != made.end();
+  if (is_made && fs::exists(folder, ignored) && !fs::is_directory(folder, ignored))
+    throw InputError(ErrorKind::usage, {path},
+                     fmt::format("cannot write the file: '{}' is a file, not a folder; give another folder",
+                                 folder.generic_string()));
   if (!folder.empty() && !is_made && !fs::is_directory(folder, ignored))
     throw InputError(ErrorKind::usage, {path}, "cannot write the file: its folder does not exist; create it");
 }
@@ -236,16 +240,21 @@ OwnFile list_file(const OutputPaths::List& list, const std::string& corrected) {
   return {list.path, [corrected](const std::string&) { return has_corrected_header(corrected); }};
 }
 
-void refuse_foreign_outputs(const OutputPaths& paths, const Options& options) {
-  refuse_part_of_other(paths.program, paths.program);
-  if (options.force_overwrite) return;
+std::vector<OwnFile> own_outputs(const OutputPaths& paths) {
+  std::vector<OwnFile> files;
   for (const OutputPaths::List& list : paths.lists)
-    if (list.always) refuse_foreign({list_file(list, paths.program)});
-  refuse_foreign({{paths.program, has_corrected_header},
-                  marked_file(paths.report_json, "\"counterflex"),
-                  marked_file(paths.report_csv, "index,line,cutting,s_mm"),
-                  page_file(paths.report_page),
-                  marked_file(paths.plot, plot_mark)});
+    if (list.always) files.push_back(list_file(list, paths.program));
+  files.insert(files.end(), {{paths.program, has_corrected_header},
+                             marked_file(paths.report_json, "\"counterflex"),
+                             marked_file(paths.report_csv, "index,line,cutting,s_mm"),
+                             page_file(paths.report_page),
+                             marked_file(paths.plot, plot_mark)});
+  return files;
+}
+
+void refuse_foreign_outputs(const OutputPaths& paths) {
+  refuse_part_of_other(paths.program, paths.program);
+  if (!paths.force_overwrite) refuse_foreign(own_outputs(paths));
 }
 
 }  // namespace counterflex::cli

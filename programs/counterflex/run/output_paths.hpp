@@ -32,7 +32,7 @@ struct OutputPaths {
   /// Get the corrected program, and the rows of the CSV report with its header, besides the files.
   std::function<void(std::string_view)> take_program{}, take_rows{};
   const JobFiles* job_files = nullptr;  ///< of all jobs, in a batch or a watch
-  bool force_overwrite = false;         ///< replaces data lists that counterflex did not write
+  bool force_overwrite = false;         ///< replaces files that counterflex did not write
 };
 
 /// The paths of outputs. For `compensate` this includes the corrected program: by default NAME.comp.EXT
@@ -75,10 +75,13 @@ OwnFile marked_file(const std::string& path, std::string_view mark);
 /// counterflex.
 void refuse_foreign(const std::vector<OwnFile>& files);
 
-/// The same for the outputs of a run, unless --force-overwrite is given, but not for data lists that are
-/// written only if they change. A program is recognised by its header. A program that is a part of a divided
-/// one is not replaced, even with --force-overwrite.
-void refuse_foreign_outputs(const OutputPaths& paths, const Options& options);
+/// The outputs of a run, without data lists that are written only if they change. A program is recognised by
+/// its header.
+std::vector<OwnFile> own_outputs(const OutputPaths& paths);
+
+/// `refuse_foreign` for the outputs of a run, unless --force-overwrite is given. A program that is a part of
+/// a divided one is not replaced, even with --force-overwrite.
+void refuse_foreign_outputs(const OutputPaths& paths);
 
 /// Throws `InputError` (ErrorKind::usage) if one of `outputs` is not the name of a file, has the name of one
 /// of `inputs` (also through links) or of another output, or lies in a folder that neither exists nor is one

@@ -10,6 +10,7 @@
 #include "counterflex/report/page.hpp"
 #include "counterflex/report/report.hpp"
 #include "process/signals.hpp"
+#include "run/header/corrected_header.hpp"
 #include "run/proof.hpp"
 
 namespace counterflex::cli {
@@ -163,6 +164,20 @@ std::vector<FileHash> RunFiles::complete_program() {
   return hashes;
 }
 
+void RunFiles::refuse_foreign_of(const std::vector<FileWriter*>& files) const {
+  if (paths_.force_overwrite) return;
+  std::vector<OwnFile> own = own_outputs(paths_);
+  for (const FileWriter& part : parts_)
+    own.push_back(
+        {part.path(), [this](const std::string& file) { return are_of_one_program(file, paths_.program); }});
+  std::erase_if(own, [&](const OwnFile& output) {
+    return std::none_of(files.begin(), files.end(), [&](const FileWriter* file) {
+      return file != nullptr && file->path() == output.path;
+    });
+  });
+  refuse_foreign(own);
+}
+
 void RunFiles::publish(bool with_program) {
   std::vector<FileWriter*> files{if_any(json_), if_any(csv_), if_any(page_), if_any(plot_)};
   if (with_program) {
@@ -171,6 +186,9 @@ void RunFiles::publish(bool with_program) {
     for (FileWriter& part : parts_) files.push_back(&part);
     files.push_back(if_any(program_));
   }
+  for (FileWriter* file : files)
+    if (file != nullptr) file->complete();
+  refuse_foreign_of(files);
   publish_together(files);
   if (with_program) std::rotate(files.begin(), files.end() - 1, files.end());  // the program is listed first
   for (const FileWriter* file : files)

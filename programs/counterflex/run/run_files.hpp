@@ -71,6 +71,10 @@ class RunFiles {
   /// of another job, or a file that counterflex did not write.
   void refuse_changed(const OutputPaths::List& list) const;
 
+  /// Throws `InputError` (ErrorKind::usage) if one of `files` would replace a file that came to be during the
+  /// run, and that counterflex did not write.
+  void refuse_foreign_of(const std::vector<FileWriter*>& files) const;
+
   void write_counted();
 
   OutputPaths paths_;
