@@ -315,7 +315,7 @@ RunReport report_verification(const RunContext& context, const RunTally& tally, 
   report.blocks.corrected = measures.segments_changed + tally.corrected_moves();
   list(report.blocks.left_alone, tally.left_alone());
   report.blocks.inserted = corrected.blocks - std::min(corrected.blocks, context.program.blocks);
-  report.text_after = TextSize{corrected.blocks, corrected.bytes};
+  if (!failure) report.text_after = TextSize{corrected.blocks, corrected.bytes};
   report.warnings = all_warnings(context, tally, report);
   add_verdict(report, tally);
   return report;

@@ -88,8 +88,7 @@ Json left_alone_json(const Capped<LeftAlone>& blocks) {
 
 Json blocks_json(const RunReport& report) {
   const BlockCounts& blocks = report.blocks;
-  const bool is_known =
-      report.command == Command::verify || (report.command == Command::compensate && !report.failure);
+  const bool is_known = report.command != Command::predict && !report.failure;
   const auto known = [&](std::size_t count) { return is_known ? Json(count) : Json(nullptr); };
   const auto others = [&](std::size_t OtherMoves::*count) {
     return blocks.others ? known(*blocks.others.*count) : Json(nullptr);
