@@ -212,6 +212,21 @@ double Emitter::set_height_inside(std::size_t s, const Vector3& end_mm, MoveEdit
                   std::abs(end_height - heights->end_mm + rise * ends_mm));
 }
 
+namespace {
+
+/// Why no points are put into a move; empty if its own data do not show it.
+std::string_view why_not_split(const Move& move) {
+  if (move.may_split) return "";
+  if (move.exact_stop)
+    return "; the tool stops exactly at its end, and would stop at each inserted point, too";
+  if (move.corners) return "; a rounding or chamfer of the control is beside it";
+  if (move.block_delete && move.arc) return "; '/' may skip its block";
+  if (move.stays_whole) return "; a word of its block acts at its start, at its end or on the whole block";
+  return "";
+}
+
+}  // namespace
+
 void Emitter::finish_segment(const Segment& segment, const PlannedSegment& planned, const UnsplitMiss& miss,
                              MoveEdit edit) {
   const Move& move = job_.program.moves[segment.move];
@@ -228,8 +243,8 @@ void Emitter::finish_segment(const Segment& segment, const PlannedSegment& plann
     list_held_words(move, correction - kept);
   else if (miss.position > 0)
     list(move,
-         fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm",
-                     miss.position / mm));
+         fmt::format("not split, its end is corrected: between its ends the deviation may reach {:.4f} mm{}",
+                     miss.position / mm, why_not_split(move)));
   if (miss.turn > 0)
     list(move, fmt::format("not split, and the control turns the tool with the path: the orientation at its "
                            "end stays off by {:.4f} degrees",

@@ -144,6 +144,7 @@ TEST_CASE("under exact stop a move is not split: its ends are corrected, and it 
     REQUIRE(result.left_alone.size() == 1);
     CHECK(result.left_alone[0].line == 4);
     CHECK(result.left_alone[0].why.find("not split") != std::string::npos);
+    CHECK(result.left_alone[0].why.find("; the tool stops exactly at its end") != std::string::npos);
     for (const Commanded& piece : commanded(shop, result)) {
       const Segment& segment = shop.path.segments[piece.segment];
       if (segment.line != 4) continue;
@@ -171,4 +172,5 @@ TEST_CASE("a block with a word that acts at its end is not split") {
   CHECK(result.counts.inserted_blocks == 0);
   REQUIRE(result.left_alone.size() == 1);
   CHECK(result.left_alone[0].line == 3);
+  CHECK(result.left_alone[0].why.find("; a word of its block acts at") != std::string::npos);
 }
