@@ -21,7 +21,8 @@ LineJson json_of(const std::vector<FileHash>& files) {
   return list;
 }
 
-LineJson json_of(const std::optional<double>& value) {
+template <typename Number>
+LineJson json_of(const std::optional<Number>& value) {
   return value ? LineJson(*value) : LineJson();
 }
 
@@ -36,10 +37,11 @@ std::vector<FileHash> files_at(const LineJson& object, const char* key) {
   return files;
 }
 
-std::optional<double> number_at(const LineJson& object, const char* key) {
+template <typename Number>
+std::optional<Number> number_at(const LineJson& object, const char* key) {
   const LineJson& value = object.at(key);
   if (value.is_null()) return std::nullopt;
-  return value.get<double>();
+  return value.get<Number>();
 }
 
 /// The error of a job that ended with the exit status `number`. Throws `UnknownStatus` for a number that no
@@ -62,11 +64,11 @@ JobOutcome outcome_from(const LineJson& object, ExitStatusOf exit_status) {
   outcome.error = text_at(object, "error");
   outcome.inputs = files_at(object, "inputs");
   outcome.outputs = files_at(object, "outputs");
-  outcome.before_mm = number_at(object, "before_mm");
-  outcome.after_mm = number_at(object, "after_mm");
-  outcome.corrected_percent = number_at(object, "corrected_percent");
-  outcome.warnings = object.at("warnings").get<std::size_t>();
-  outcome.moves = object.at("moves").get<std::size_t>();
+  outcome.before_mm = number_at<double>(object, "before_mm");
+  outcome.after_mm = number_at<double>(object, "after_mm");
+  outcome.corrected_percent = number_at<double>(object, "corrected_percent");
+  outcome.warnings = number_at<std::size_t>(object, "warnings");
+  outcome.moves = number_at<std::size_t>(object, "moves");
   return outcome;
 }
 
@@ -103,8 +105,8 @@ std::string to_json_line(const JobOutcome& outcome, ExitStatusOf exit_status) {
   object["before_mm"] = json_of(outcome.before_mm);
   object["after_mm"] = json_of(outcome.after_mm);
   object["corrected_percent"] = json_of(outcome.corrected_percent);
-  object["warnings"] = outcome.warnings;
-  object["moves"] = outcome.moves;
+  object["warnings"] = json_of(outcome.warnings);
+  object["moves"] = json_of(outcome.moves);
   return object.dump();
 }
 

@@ -38,6 +38,10 @@ Document number_or_null(const std::optional<double>& value, int decimals) {
   return value ? Document(rounded(*value, decimals)) : Document();
 }
 
+Document count_or_null(const std::optional<std::size_t>& count) {
+  return count ? Document(*count) : Document();
+}
+
 Document files_of(const std::vector<FileHash>& files) {
   Document list = Document::array();
   for (const FileHash& file : files) list.push_back({{"path", file.path}, {"sha256", file.sha256}});
@@ -56,8 +60,8 @@ Document job_of(const JobOutcome& outcome, ExitStatusOf exit_status) {
   job["before_mm"] = number_or_null(outcome.before_mm, shown_digits);
   job["after_mm"] = number_or_null(outcome.after_mm, shown_digits);
   job["corrected_percent"] = number_or_null(outcome.corrected_percent, 2);
-  job["warnings"] = outcome.warnings;
-  job["moves"] = outcome.moves;
+  job["warnings"] = count_or_null(outcome.warnings);
+  job["moves"] = count_or_null(outcome.moves);
   job["inputs"] = files_of(outcome.inputs);
   job["outputs"] = files_of(outcome.outputs);
   return job;
@@ -79,12 +83,16 @@ std::string fixed_or(const std::optional<double>& value, int decimals, std::stri
   return value ? format_fixed(*value, decimals) : std::string(none);
 }
 
+std::string count_or(const std::optional<std::size_t>& count, std::string_view none) {
+  return count ? fmt::format("{}", *count) : std::string(none);
+}
+
 std::string row_of(const JobOutcome& outcome) {
   const std::string percent =
       outcome.corrected_percent ? fixed_or(outcome.corrected_percent, 1, "") + " %" : "-";
   return fmt::format("{:<19}{:<22}{:>11}{:>11}{:>11}{:>10}  {}\n", outcome.verdict, status_text(outcome),
                      fixed_or(outcome.before_mm, 4, "-"), fixed_or(outcome.after_mm, 4, "-"), percent,
-                     outcome.warnings, without_controls(outcome.program));
+                     count_or(outcome.warnings, "-"), without_controls(outcome.program));
 }
 
 std::string heading() {
@@ -191,8 +199,9 @@ std::string summary_csv(const std::vector<JobOutcome>& outcomes, ExitStatusOf ex
         "{},{},{},{},{},{},{},{},{},{},{},{}\n", csv_field(outcome.program), csv_field(outcome.output),
         csv_field(status_text(outcome)), exit_number(outcome.error_kind, exit_status),
         fixed_or(outcome.before_mm, shown_digits, ""), fixed_or(outcome.after_mm, shown_digits, ""),
-        fixed_or(outcome.corrected_percent, 2, ""), outcome.warnings, outcome.moves, csv_field(outcome.error),
-        outcome.verdict, csv_field(outcome.verdict_reason));
+        fixed_or(outcome.corrected_percent, 2, ""), count_or(outcome.warnings, ""),
+        count_or(outcome.moves, ""), csv_field(outcome.error), outcome.verdict,
+        csv_field(outcome.verdict_reason));
   return text;
 }
 

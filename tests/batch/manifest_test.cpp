@@ -136,7 +136,7 @@ TEST_CASE("the format is the one that is documented") {
       "{\"key\":\"k\",\"program\":\"a%25b\",\"output\":\"\",\"exit\":0,\"verdict\":\"FAILED\",\"verdict_"
       "reason\":\"\",\"error\":\"\","
       "\"inputs\":[{\"path\":\"i\",\"sha256\":\"h\"}],\"outputs\":[],\"before_mm\":null,\"after_mm\":null,"
-      "\"corrected_percent\":null,\"warnings\":0,\"moves\":0}\n"
+      "\"corrected_percent\":null,\"warnings\":null,\"moves\":null}\n"
       "],\n";
   CHECK(to_text(manifest, status_of) == lines + "\"sha256\":\"" + sha256(lines) + "\"}\n");
 }

@@ -62,22 +62,26 @@ TEST_CASE("the table shows the worst jobs, the number of others, and reasons of 
 }
 
 TEST_CASE("the documents agree, and can be read back with any characters in names") {
-  const std::vector<JobOutcome> jobs{job("a, \"b\" 50%.ngc", std::nullopt, 0.0041),
-                                     job("\xff.ngc", ErrorKind::limit, {}, {})};
+  std::vector<JobOutcome> jobs{job("a, \"b\" 50%.ngc", std::nullopt, 0.0041),
+                               job("\xff.ngc", ErrorKind::limit, {}, {})};
+  jobs[0].warnings = 2;
+  jobs[0].moves = 0;
   const auto document = nlohmann::json::parse(summary_json(jobs, "1.2", status_of));
   CHECK(document["tool"] == "counterflex 1.2");
   CHECK(document["counts"]["failed"] == 1);
   CHECK(document["exit_status"] == status_of(ErrorKind::limit));
   CHECK(document["jobs"][0]["exit_status"] == status_of(ErrorKind::limit));
   CHECK(document["jobs"][1]["exit_status"] == 0);
-  CHECK(document["jobs"][0]["before_mm"].is_null());
+  for (const char* key : {"before_mm", "warnings", "moves"}) CHECK(document["jobs"][0][key].is_null());
+  CHECK(document["jobs"][1]["warnings"] == 2);
+  CHECK(document["jobs"][1]["moves"] == 0);
   CHECK(document["jobs"][1]["program"] == "a, \"b\" 50%.ngc");
   CHECK(document["jobs"][1]["after_mm"] == 0.0041);
   const std::string csv = summary_csv(jobs, status_of);
   CHECK(csv.find(
-            "\n\"a, \"\"b\"\" 50%.ngc\",\"out/a, \"\"b\"\" 50%.ngc\",done,0,1.000000,0.004100,,0,0,,OK,\n") !=
+            "\n\"a, \"\"b\"\" 50%.ngc\",\"out/a, \"\"b\"\" 50%.ngc\",done,0,1.000000,0.004100,,2,0,,OK,\n") !=
         std::string::npos);
-  CHECK(csv.find(",limit exceeded,60,,,,0,0,\"\xff.ngc:1:1: error: \"\"no\"\", it said\",FAILED,\n") !=
+  CHECK(csv.find(",limit exceeded,60,,,,,,\"\xff.ngc:1:1: error: \"\"no\"\", it said\",FAILED,\n") !=
         std::string::npos);
 }
 

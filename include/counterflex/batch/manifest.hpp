@@ -50,9 +50,8 @@ struct JobOutcome {
   std::vector<FileHash> outputs;  ///< as they were written, the corrected program first where there is one
   std::optional<double> before_mm,
       after_mm;  ///< largest deviation of feed moves; none where nothing was solved
-  std::optional<double> corrected_percent;  ///< of the cutting length
-  std::size_t warnings = 0;
-  std::size_t moves = 0;  ///< of the program
+  std::optional<double> corrected_percent;     ///< of the cutting length
+  std::optional<std::size_t> warnings, moves;  ///< none if an input was refused before they were counted
   bool operator==(const JobOutcome&) const = default;
 };
 

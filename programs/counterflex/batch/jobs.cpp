@@ -19,6 +19,7 @@
 #include "run/inputs.hpp"
 #include "run/output_paths.hpp"
 #include "settings/layers.hpp"
+#include "settings/setting_options.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -115,7 +116,7 @@ class JobList {
     } catch (const InputError& error) {
       if (!error.where().file.empty()) throw;
       throw InputError(ErrorKind::machine_or_force, entry.where,
-                       fmt::format("{}: {}", program, error.what()));
+                       fmt::format("{}: {}", program, message_without_place(error)));
     }
   }
 

@@ -56,6 +56,12 @@ void check_flags(const Options& options) {
   if (modes > 1) throw InputError(ErrorKind::usage, {}, "--shard, --merge and --estimate exclude each other");
   if (options.batch.resume && (options.batch.merge || options.batch.estimate))
     throw InputError(ErrorKind::usage, {}, "--resume goes with a run or a --shard of it");
+  if (options.json && (options.batch.shard || options.batch.estimate))
+    throw InputError(
+        ErrorKind::usage, {},
+        fmt::format("--json goes with a run or --merge, which write the summary; {} prints one line "
+                    "of text, leave --json out",
+                    options.batch.shard ? "--shard" : "--estimate"));
 }
 
 /// Refuses to replace files that counterflex did not write. Called before any job starts.
@@ -99,6 +105,7 @@ std::optional<ErrorKind> conclude(const Options& options, const Batch& batch, Ba
   std::exception_ptr unsaved;
   try {
     manifest.save();
+    refuse_foreign_summary(batch);  // that came to be during the run
     write_summary(batch, outcomes, json);
   } catch (const InputError&) {
     unsaved = std::current_exception();

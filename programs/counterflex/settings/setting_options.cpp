@@ -309,14 +309,18 @@ void blame_setting(const Setting& setting, std::size_t i, const std::string& mes
                    place_of(setting, i), message);
 }
 
+std::string message_without_place(const InputError& error) {
+  const std::string_view what = error.what(), prefix = "error: ";
+  return std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what);
+}
+
 void apply_setting(const Setting& setting, Options& options) {
   const SettingOption& option = setting_option(setting.option);
   for (std::size_t i = 0; i < setting.values.size(); ++i) {
     try {
       option.take(name_in_messages(setting), setting.values[i], options);
     } catch (const InputError& error) {
-      const std::string_view what = error.what(), prefix = "error: ";
-      blame_setting(setting, i, std::string(what.starts_with(prefix) ? what.substr(prefix.size()) : what));
+      blame_setting(setting, i, message_without_place(error));
     }
   }
 }

@@ -5,6 +5,7 @@
 #include <string>
 #include <string_view>
 
+#include "counterflex/files/input_error.hpp"
 #include "counterflex/settings/project_file.hpp"
 #include "settings/options.hpp"
 
@@ -33,6 +34,9 @@ bool has_setting(Command command, std::string_view option);
 /// Sets the values of a setting in `options`. Throws `InputError` at the place of a wrong value:
 /// ErrorKind::usage for flags and the environment, ErrorKind::machine_or_force for files.
 void apply_setting(const Setting& setting, Options& options);
+
+/// The message of an error without a place.
+std::string message_without_place(const InputError& error);
 
 /// Throws `message` as `apply_setting` does for value `i`.
 [[noreturn]] void blame_setting(const Setting& setting, std::size_t i, const std::string& message);
