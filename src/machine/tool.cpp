@@ -94,7 +94,7 @@ Machine with_tool(const Machine& machine, const Tool& tool) {
 
 std::string stiffness_phrase(const Tool& tool) {
   if (tool.from == ToolStiffness::rigid)
-    return tool.in_file ? "rigid" : "rigid, with its length from the tool table";
+    return tool.in_file ? "rigid" : "rigid, with its length from the tool table or the settings";
   const std::string at_tip = fmt::format("{:.3g} N/um at its tip", radial_stiffness(tool) / N_per_um);
   if (tool.from == ToolStiffness::radial) return "stiffness from holder_N_per_um: " + at_tip;
   if (tool.from == ToolStiffness::matrix) return "stiffness from a 6x6 matrix: " + at_tip;

@@ -276,7 +276,8 @@ class Watch {
   void report(const JobOutcome& outcome) {
     if (!first_failure_) first_failure_ = outcome.error_kind;
     if (!outcome.error.empty()) console_.error(outcome.error);
-    write_result(options_.json ? json_line(outcome) : text_line(outcome));
+    if (options_.json || !options_.quiet)
+      write_result(options_.json ? json_line(outcome) : text_line(outcome));
     std::error_code ignored;
     if (outcome.error_kind && fs::is_regular_file(outcome.output, ignored))
       console_.warning(outcome.output, 0,

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <utility>
 
@@ -56,11 +57,13 @@ std::optional<LengthUnit> unit_of(const Options& options, const Machine* machine
   return machine->control.units == "inch" ? LengthUnit::inches : LengthUnit::millimetres;
 }
 
-/// By extension; standard input is CSV.
+/// By extension, in small letters or capitals; standard input is CSV.
 bool is_cutting_model(const std::string& path) {
   const std::string extension =
       path == "-" ? ".csv" : std::filesystem::path(path).extension().generic_string();
-  if (extension == ".csv" || extension == ".toml") return extension == ".toml";
+  std::string small = extension;
+  std::ranges::transform(small, small.begin(), [](unsigned char c) { return std::tolower(c); });
+  if (small == ".csv" || small == ".toml") return small == ".toml";
   throw InputError(ErrorKind::usage, {path},
                    fmt::format("a force file is .csv or .toml, not '{}'", extension));
 }

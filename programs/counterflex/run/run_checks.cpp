@@ -97,7 +97,7 @@ void warn_of_tools(Run& run) {
     if (tool == nullptr)
       what = " is not in [tools]: its moves use [tool], rigid";
     else if (!tool->in_file && bends)
-      what = " is not in [tools]: it is " + stiffness_phrase(*tool);
+      what = " is not in [tools] of the machine file: it is " + stiffness_phrase(*tool);
     else if (tool->from == ToolStiffness::cantilever)
       what = ": " + stiffness_phrase(*tool);
     if (!what.empty()) run.facts.warnings.push_back({0, fmt::format("tool T{}{}", number, what)});

@@ -75,9 +75,11 @@ std::vector<SettingRemark> remarks_on_replaced(Command command, const Layers& la
       const std::string by = used->origin == Origin::file
                                  ? fmt::format("{}:{}", used->where.file, used->where.line)
                                  : shown_option(option, used->origin);
-      remark.what =
-          fmt::format("{} replaces all of {}; not used: {}; give them there too if the program needs them",
-                      by, shown_option(option, replaced_table->origin), fmt::join(names, ", "));
+      remark.what = fmt::format(
+          "{} replaces all of {}; not used: {} as given here; values of {} act instead, if it has them; give "
+          "them there too if the program needs these",
+          by, shown_option(option, replaced_table->origin), fmt::join(names, ", "),
+          option == "work" ? "the machine file" : "the tool table or the machine file");
     }
   }
   return remarks;
