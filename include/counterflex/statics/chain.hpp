@@ -25,7 +25,8 @@ enum class ChainMethod { paper, newton };
 ///
 /// `state` is the start (a nominal configuration's, or a neighbour's; actuators are held) and becomes the
 /// solution; its F is the wrench that the platform exerts on the end (N, N m, at P's origin, axes of M). Does
-/// not throw; allocates nothing once `work` exists. Source: Klimchik, Pashkevich, Chablat, eq. (2).
+/// not throw; allocates nothing once `work` exists, unless a branch has no stiffness of its own. Source:
+/// Klimchik, Pashkevich, Chablat, eq. (2).
 ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage,
                              ChainMethod method, SeriesState& state, StaticsWork& work);
 

@@ -1,5 +1,6 @@
 #include "counterflex/statics/equilibrium.hpp"
 
+#include "counterflex/statics/chain.hpp"
 #include "statics/model/tolerances.hpp"
 #include "statics/solve/continuation.hpp"
 
@@ -59,7 +60,14 @@ ManipulatorStiffness stiffness(const Model& model, const Configuration& configur
                                StaticsWork& work) {
   evaluate_all(model, configuration, stage, work.impl());
   const auto sum = aggregate(model.mechanism.chains, {model.mechanism.length}, work.impl().chains);
-  return sum ? ManipulatorStiffness{sum->K, true} : ManipulatorStiffness{Matrix6::Zero(), false};
+  if (sum) return {sum->K, true};
+  ManipulatorStiffness uncondensed;
+  for (std::size_t i = 0; i < model.mechanism.chains.size(); ++i) {
+    const ChainStiffness chain = chain_stiffness(model, i, configuration.chains[i], stage, work);
+    if (!chain.available) return {Matrix6::Zero(), false};
+    uncondensed.K += chain.K_C;
+  }
+  return uncondensed;
 }
 
 double stability(const Model& model, const Configuration& configuration, const Load& load, const Stage& stage,

@@ -29,6 +29,112 @@ SeriesWork& evaluated(const Model& model, std::size_t i, const SeriesState& stat
   return chain;
 }
 
+bool is_found(const Mechanism& mechanism, const Pose& X_MP, const Residual& residual, double step) {
+  return residual.closure <= closure_tolerance && step <= step_tolerance &&
+         residual.force <= force_tolerance(mechanism, X_MP, residual.largest);
+}
+
+// A chain and its branches, uncondensed: a group whose branches are rigid in some directions has no six
+// springs, but its chain may have a stiffness of its own. EQUATIONS.md, section 6.
+class WholeChain {
+ public:
+  WholeChain(const Model& model, std::size_t i, const Stage& stage)
+      : stage_(stage), units_{model.mechanism.length}, gravity_(acting_gravity(model.mechanism, stage)) {
+    chain_.chains = {model.mechanism.chains[i]};
+    works_.push_back(make_work(series()));
+  }
+
+  WholeSystem evaluated(const SeriesState& state, const Pose& X_MP, Hessians hessians) {
+    evaluate(series(), state, X_MP, stage_, gravity_, hessians, works_[0]);
+    return assemble_whole(chain_, works_, {}, units_);
+  }
+
+  // `system` with a step of the end (m, rad).
+  WholeStep step(const WholeSystem& system, const Vector6& dxi) const {
+    return solve_whole(
+        system, Controlled{Matrix6::Identity(), dxi.cwiseQuotient(units_.of_pose()), /*by_forces=*/true},
+        units_);
+  }
+
+  Residual residual(const SeriesState& state) const {
+    Residual result;
+    add_residual(series(), state, works_[0], units_, result);
+    return result;
+  }
+
+  // Returns the largest entry.
+  double take(const WholeStep& step, const Pose& X_MP, SeriesState& state) const {
+    Configuration configuration{X_MP, {std::move(state)}};
+    const double largest = apply(chain_, step, units_, configuration);
+    state = std::move(configuration.chains[0]);
+    return largest;
+  }
+
+ private:
+  const Series& series() const { return chain_.chains[0]; }
+
+  Mechanism chain_;
+  std::vector<SeriesWork> works_;
+  Stage stage_;
+  Units units_;
+  Vector3 gravity_;
+};
+
+ChainEquilibrium solve_whole_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage,
+                                   Hessians hessians, SeriesState& state) {
+  WholeChain chain(model, i, stage);
+  ChainEquilibrium result;
+  double step = std::numeric_limits<double>::infinity();
+  for (; result.iterations < most_linear_steps; ++result.iterations) {
+    const WholeSystem system = chain.evaluated(state, X_MP, hessians);
+    const Residual residual = chain.residual(state);
+    if (!std::isfinite(residual.closure + residual.force)) return result;
+    if (!determines_end(system)) {
+      result.status = Status::singular;
+      return result;
+    }
+    if (is_found(model.mechanism, X_MP, residual, step)) {
+      result.status = Status::converged;
+      return result;
+    }
+    step = chain.take(chain.step(system, Vector6::Zero()), X_MP, state);
+  }
+  return result;
+}
+
+// Sorts the rows of a chain's columns, each of which `row` gives.
+template <class Row>
+void fill_rows(const Series& series, const Row& row, ChainStiffness& result) {
+  for (const Part& part : series.parts) {
+    if (part.kind == PartKind::actuator || part.kind == PartKind::group) continue;
+    for (int k = 0; k < columns_of(part); ++k) {
+      auto& rows = part.kind == PartKind::passive ? result.K_Cq : result.K_Ctheta;
+      rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
+      rows.bottomRows<1>() = row(part.column + k);
+    }
+  }
+}
+
+ChainStiffness whole_chain_stiffness(const Model& model, std::size_t i, const SeriesState& state,
+                                     const Stage& stage) {
+  WholeChain chain(model, i, stage);
+  WholeSystem system = chain.evaluated(state, {}, Hessians::yes);
+  ChainStiffness result;
+  result.available = determines_end(system);
+  if (!result.available) return result;
+  system.gradient.setZero();
+  system.gap.setZero();
+  Eigen::Matrix<double, Eigen::Dynamic, 6> steps(system.gradient.size(), 6);
+  for (int k = 0; k < 6; ++k) {
+    const WholeStep step = chain.step(system, Vector6::Unit(k));
+    result.K_C.col(k) = step.wrenches.head<6>();
+    steps.col(k) = step.variables;
+  }
+  fill_rows(
+      model.mechanism.chains[i], [&](int column) { return steps.row(column); }, result);
+  return result;
+}
+
 }  // namespace
 
 ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP, const Stage& stage,
@@ -43,15 +149,11 @@ ChainEquilibrium solve_chain(const Model& model, std::size_t i, const Pose& X_MP
     Residual residual;
     add_residual(series, state, chain, units, residual);
     if (!std::isfinite(residual.closure + residual.force)) return result;
-    if (residual.closure <= closure_tolerance && step <= step_tolerance &&
-        residual.force <= force_tolerance(model.mechanism, X_MP, residual.largest)) {
+    if (is_found(model.mechanism, X_MP, residual, step)) {
       result.status = Status::converged;
       return result;
     }
-    if (!condense(series, units, chain)) {
-      result.status = Status::singular;
-      return result;
-    }
+    if (!condense(series, units, chain)) return solve_whole_chain(model, i, X_MP, stage, hessians, state);
     step = take_step(series, Vector6::Zero(), Vector3::Zero(), units, chain, state);
   }
   return result;
@@ -62,21 +164,19 @@ ChainStiffness chain_stiffness(const Model& model, std::size_t i, const SeriesSt
   const Series& series = model.mechanism.chains[i];
   const Units units{model.mechanism.length};
   SeriesWork& chain = evaluated(model, i, state, {}, stage, Hessians::yes, work);
+  if (!condense(series, units, chain)) return whole_chain_stiffness(model, i, state, stage);
   ChainStiffness result;
-  result.available = condense(series, units, chain);
-  if (!result.available) return result;
   result.K_C = chain.K;
-  Eigen::Index row = 6;  // of the solution: below the wrench's, one for each free column
-  for (const Part& part : series.parts) {
-    if (part.kind == PartKind::actuator) continue;
-    for (int k = 0; k < columns_of(part); ++k, ++row) {
-      if (part.kind == PartKind::group) continue;
-      auto& rows = part.kind == PartKind::passive ? result.K_Cq : result.K_Ctheta;
-      rows.conservativeResize(rows.rows() + 1, Eigen::NoChange);
-      rows.bottomRows<1>() =
-          units.of_column(series.angular[part.column + k]) * chain.solution.block<1, 6>(row, 1);
-    }
-  }
+  std::vector<Eigen::Index> place(static_cast<std::size_t>(series.columns));
+  for (std::size_t k = 0; k < series.free.size(); ++k)  // of the solution: below the wrench's
+    place[static_cast<std::size_t>(series.free[k])] = 6 + static_cast<Eigen::Index>(k);
+  fill_rows(
+      series,
+      [&](int column) {
+        return units.of_column(series.angular[column]) *
+               chain.solution.block<1, 6>(place[static_cast<std::size_t>(column)], 1);
+      },
+      result);
   return result;
 }
 

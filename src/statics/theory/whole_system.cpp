@@ -276,6 +276,14 @@ Condition condition(const WholeSystem& system, const Units& units) {
   return result;
 }
 
+bool determines_end(const WholeSystem& system) {
+  auto columns = unknowns(system, false);
+  columns.resize(columns.size() - 6);  // the platform is held
+  Eigen::MatrixXd B = bordered(system, columns, columns);
+  soften(system, columns, B);
+  return null_space(B).middleRows<6>(static_cast<Eigen::Index>(columns.size())).norm() <= moves_platform;
+}
+
 double condition_bound(const WholeSystem& system) {
   const auto columns = unknowns(system, false);
   Eigen::MatrixXd B = bordered(system, columns, columns);

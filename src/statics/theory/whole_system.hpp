@@ -87,6 +87,10 @@ struct Condition {
 };
 Condition condition(const WholeSystem& system, const Units& units);
 
+/// Of one chain whose end is held: whether the wrench on its end is determined. Redundant closures of its
+/// branches and zero modes inside it are allowed.
+bool determines_end(const WholeSystem& system);
+
 /// The condition is at most this; infinite where the system has zero modes.
 double condition_bound(const WholeSystem& system);
 
