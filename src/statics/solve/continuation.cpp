@@ -126,7 +126,12 @@ Equilibrium continue_from(const Model& model, const Configuration& start, const 
   });
   result.configuration = std::move(now.configuration);
   result.iterations = follower.iterations;
-  if (arrived) report(model, problem, now.form, work, result);
+  if (arrived)
+    report(model, problem, now.form, work, result);
+  else if (now.s == 0) {  // no part of the load has an equilibrium: perhaps the start does not resist it
+    judge_condition(model, {Load{}, from, nullptr}, work, result);
+    if (result.status != Status::singular) result.status = Status::not_converged;
+  }
   return result;
 }
 

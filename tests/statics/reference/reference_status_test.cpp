@@ -122,11 +122,12 @@ TEST_CASE("a direction in which nothing holds the platform is singular, and is r
   CHECK(std::abs(solved.weakest[2]) > 0.99 * solved.weakest.norm());
 }
 
-TEST_CASE("a load on a direction in which nothing holds the platform finds no equilibrium") {
+TEST_CASE(
+    "a load on a direction in which nothing holds the platform finds no equilibrium: singular, as without "
+    "it") {
   Bench bench(machine_from(soft_along_z("0")));
   const Load along_z{(Vector6() << 0, 0, 10, 0, 0, 0).finished()};
-  CHECK(solve_forward(bench.model, bench.model.home, along_z, all, bench.work).status ==
-        Status::not_converged);
+  CHECK(solve_forward(bench.model, bench.model.home, along_z, all, bench.work).status == Status::singular);
   CHECK(refine_forward(bench.model, bench.model.home, along_z, all, bench.work).status ==
         Status::not_converged);
 }

@@ -158,6 +158,27 @@ elements = [{ passive = "prismatic", axis = [0, 3, 4] }, { spring = "s" }])");
   CHECK(std::abs(weakest.dot(expected)) == doctest::Approx(1).epsilon(1e-6));
 }
 
+TEST_CASE("a machine that does not resist a force is singular under it, too") {
+  const Model model = model_of_text(R"(controlled = ["x", "y", "z"]
+springs.k = { stiffness_diag_si = [1e7, 1e7, 0, 1e6, 1e6, 1e6] }
+[[chain]]
+name = "c"
+elements = [ { actuator = "prismatic", axis = "x" }, { actuator = "prismatic", axis = "y" }, { actuator = "prismatic", axis = "z" }, { spring = "k" } ]
+)");
+  StaticsWork work(model.mechanism);
+  for (const double z : {0.0, 30.0}) {
+    CAPTURE(z);
+    const Load load{(Vector6() << 10, 0, z, 0, 0, 0).finished(), false};
+    const Equilibrium forward = solve_forward(model, model.home, load, {}, work),
+                      target =
+                          solve_target(model, model.home, tip(model.mechanism, model.home), load, {}, work);
+    for (const Equilibrium& e : {forward, target}) {
+      CHECK(e.status == Status::singular);
+      CHECK(std::abs(e.weakest.normalized().z()) == doctest::Approx(1));
+    }
+  }
+}
+
 TEST_CASE("a zero mode that moves no platform is allowed") {
   const Model model = model_of_text(R"(controlled = []
 [springs.s]
