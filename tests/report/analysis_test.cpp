@@ -65,6 +65,17 @@ double largest_spring_rotation(const PoseAnalysis& pose) {
   return result;
 }
 
+// A machine with one chain of three slides and `element`.
+Model chain_of(const std::string& element, const std::string& tables = "") {
+  return prepare(read_machine("format = \"counterflex-machine 1\"\ncontrolled = [\"x\", \"y\", \"z\"]\n" +
+                                  tables + R"(
+[[chain]]
+name = "c"
+elements = [ { actuator = "prismatic", axis = "x" }, { actuator = "prismatic", axis = "y" }, { actuator = "prismatic", axis = "z" }, )" +
+                                  element + " ]\n",
+                              "test.toml"));
+}
+
 }  // namespace
 
 // Source: the linear formulas (13), (15), (16) with the parameters identified for the paper's machine; its
@@ -459,4 +470,14 @@ TEST_CASE("a state that is not reached by increasing the load is reported as uns
   };
   CHECK(status_under(30) == Status::converged);
   CHECK(status_under(100) == Status::unstable);
+}
+
+TEST_CASE("a very soft machine has its stiffness in significant digits, and its columns stay apart") {
+  const Model model =
+      chain_of("{ spring = \"k\" }", "springs.k = { stiffness_diag_si = [400, 4e4, 123456, 10, 10, 10] }");
+  const Load load{(Vector6() << 400, 0, 0, 0, 0, 0).finished(), false};
+  const std::string text = to_text(analyze(model, {at_mm(0, 0, 0)}, load, Method::direct, "0.1.0"));
+  CHECK(contains(text, "along x, y, z: 0.0004, 0.040, 0.123 N/um\n"));
+  CHECK(contains(text, "softest to a force at the tip along (1.000, 0.000, 0.000): 0.0004 N/um\n"));
+  CHECK(contains(text, "   0.000 1000.0000   0.0000   0.0000   0.0000"));
 }

@@ -257,6 +257,18 @@ TEST_CASE("best and worst are the largest and the least stiffness, of a deviatio
   CHECK(range_of(map).worst == 1);
 }
 
+TEST_CASE("small stiffnesses have significant digits, small deviations do not") {
+  MadeUpMap made_up(grid_of(box_mm(0, 0, 0, 30, 0, 0), {3, 1, 1}),
+                    [](const Vector3& p) { return 4e-4 + p.x() / 1e6; });
+  WorkspaceMap map{.version = "0", .machine = "soft"};
+  map.request = made_up.request;
+  map.places = made_up.places;
+  CHECK(to_text(map).find("0.000 um at ") != std::string::npos);
+  map.request.quantity = MapQuantity::stiffness;
+  for (MapPlace& place : map.places) place.value *= N_per_um / um;
+  CHECK(to_text(map).find("median       0.000415 N/um\n") != std::string::npos);
+}
+
 TEST_CASE("the shift of a part makes the mean over its box least") {
   // |x - 60| + 2 |y - 20| + z: the middle of a box of 20 x 10 mm has to be at 60, 20; z as low as possible.
   const MadeUpMap made(grid_of(box_mm(0, 0, 0, 100, 100, 20), {21, 21, 3}), [](const Vector3& p) {

@@ -1,5 +1,6 @@
 #include <fmt/core.h>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 
@@ -19,9 +20,14 @@ std::string number_text(double value, int decimals) {
   return format_fixed(value, decimals);
 }
 
-std::string cells(const Vector3& v, int decimals, int width) {
-  return fmt::format("{:>{}}{:>{}}{:>{}}", number_text(v.x(), decimals), width, number_text(v.y(), decimals),
-                     width, number_text(v.z(), decimals), width);
+// A number that fills its column is wider than the column by a blank.
+std::string cell(double value, int decimals, std::size_t width) {
+  const std::string text = number_text(value, decimals);
+  return fmt::format("{:>{}}", text, std::max(width, text.size() + 1));
+}
+
+std::string cells(const Vector3& v, int decimals, std::size_t width) {
+  return cell(v.x(), decimals, width) + cell(v.y(), decimals, width) + cell(v.z(), decimals, width);
 }
 
 std::string title(const AnalysisReport& report) {
@@ -58,12 +64,14 @@ std::string deviations(const AnalysisReport& report) {
 }
 
 std::string chain_row(std::size_t index, const ChainLoads& chain) {
-  return fmt::format(
-      "  {:>3} {:<12.12}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}{:>10}\n", index, chain.name,
-      number_text(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2), number_text(chain[LoadKind::moment], 2),
-      number_text(chain[LoadKind::group_moment], 2), number_text(chain[LoadKind::spring_translation] / mm, 3),
-      number_text(chain[LoadKind::spring_rotation] / deg, 3), number_text(chain[LoadKind::spring_force], 2),
-      number_text(chain[LoadKind::spring_torque], 2), number_text(chain[LoadKind::passive_change] / deg, 3));
+  constexpr std::size_t width = 10;
+  return fmt::format("  {:>3} {:<12.12}", index, chain.name) +
+         cell(chain.wrench.head<3>().cwiseAbs().maxCoeff(), 2, width) +
+         cell(chain[LoadKind::moment], 2, width) + cell(chain[LoadKind::group_moment], 2, width) +
+         cell(chain[LoadKind::spring_translation] / mm, 3, width) +
+         cell(chain[LoadKind::spring_rotation] / deg, 3, width) +
+         cell(chain[LoadKind::spring_force], 2, width) + cell(chain[LoadKind::spring_torque], 2, width) +
+         cell(chain[LoadKind::passive_change] / deg, 3, width) + "\n";
 }
 
 std::string chain_loads(const AnalysisReport& report) {
@@ -126,7 +134,7 @@ std::string corrected_targets(const AnalysisReport& report) {
 }
 
 std::string newtons_per_um(double stiffness) {
-  return std::isfinite(stiffness) ? number_text(stiffness * um, 3) : "rigid";
+  return std::isfinite(stiffness) ? stiffness_text(stiffness * um, number_text(stiffness * um, 3)) : "rigid";
 }
 
 std::string softest(const PoseAnalysis& pose) {

@@ -153,7 +153,8 @@ std::string box_text(const MapBox& box) {
 }
 
 std::string value_text(double value, MapQuantity quantity) {
-  return four_digits(value / unit_of(quantity).si);
+  const double shown = value / unit_of(quantity).si;
+  return quantity == MapQuantity::stiffness ? stiffness_text(shown, four_digits(shown)) : four_digits(shown);
 }
 
 std::string to_text(const WorkspaceMap& map) {

@@ -35,7 +35,7 @@ std::string box_text(const MapBox& box);
 /// "200, 100, -200", in mm.
 std::string mm_text(const Vector3& p);
 
-/// A value in its unit, four digits.
+/// A value in its unit, four digits; of a stiffness below 0.01 N/um three significant ones.
 std::string value_text(double value, MapQuantity quantity);
 
 }  // namespace counterflex

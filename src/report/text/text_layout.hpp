@@ -1,8 +1,12 @@
 #pragma once
 /// Text for terminals: emphasis and wrapped paragraphs.
+#include <fmt/core.h>
+
+#include <cmath>
 #include <optional>
 #include <string>
 #include <string_view>
+#include <utility>
 
 #include "counterflex/files/text.hpp"
 
@@ -38,6 +42,12 @@ std::string times_smaller(double before_mm, double after_mm);
 /// Millimetres in summaries.
 inline std::string mm4(double value) {
   return format_fixed(value, 4);
+}
+
+/// A stiffness (N/um) as `fixed`, or with three significant digits where `fixed` has fewer than two.
+inline std::string stiffness_text(double shown, std::string fixed) {
+  constexpr double small = 0.01;
+  return std::abs(shown) < small ? fmt::format("{:.3g}", shown) : std::move(fixed);
 }
 
 /// Blank if unknown.
