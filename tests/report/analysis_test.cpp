@@ -472,6 +472,21 @@ TEST_CASE("a state that is not reached by increasing the load is reported as uns
   CHECK(status_under(100) == Status::unstable);
 }
 
+TEST_CASE("the curve of a rigid direction has its reason in words, and no number for its stiffness") {
+  AnalysisExtras extras;
+  extras.curve = CurveRequest{Vector3::UnitX(), 0, 1e-3, 1};
+  const AnalysisReport report =
+      analyze(chain_of("{ compliance = \"prismatic\", axis = \"z\", stiffness_N_per_m = 1e7 }"),
+              {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0", extras);
+  CHECK(contains(to_text(report),
+                 "            0.0000             rigid   stable\n"
+                 "      singular: the machine is rigid along this direction: a force along it does not "
+                 "move the tip\n"));
+  CHECK(contains(to_json(report), "\"why\": \"the machine is rigid along this direction: "));
+  CHECK(contains(to_json(report), "\"stiffness_N_per_m\": null"));
+  CHECK(contains(to_csv(report), "\n1,0.000000000,0,,1,0.000000000,"));
+}
+
 TEST_CASE("a very soft machine has its stiffness in significant digits, and its columns stay apart") {
   const Model model =
       chain_of("{ spring = \"k\" }", "springs.k = { stiffness_diag_si = [400, 4e4, 123456, 10, 10, 10] }");

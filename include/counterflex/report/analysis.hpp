@@ -75,6 +75,9 @@ struct PoseAnalysis {
   std::optional<ForceCurve> curve;
 };
 
+/// Why points of a force curve were not found, in words; empty where all were.
+std::string reason(const ForceCurve& curve);
+
 /// The pose `X_MT` of the tip (in the controlled components; all six where nothing is controlled) under
 /// `load`. Loads of chains are those of `extras.machine`. Never throws: what could not be solved is a status.
 PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load, Method method,

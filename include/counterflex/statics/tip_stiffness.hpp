@@ -51,8 +51,12 @@ struct CurvePoint {
 };
 
 struct ForceCurve {
-  /// Of the state without the force, then of the first point that was not found.
+  /// Of the state without the force, then of the first point that was not found; `singular` where the machine
+  /// is rigid along the direction.
   Status status = Status::not_converged;
+  /// A force along the direction does not move the tip: displacement 0 alone has a point, of infinite
+  /// stiffness.
+  bool rigid = false;
   std::vector<CurvePoint> points;  ///< by displacement; those that were found
   /// The last stable state before the first unstable one, on the way from displacement 0 to either side: a
   /// limit point (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself.

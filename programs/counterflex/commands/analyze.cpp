@@ -94,9 +94,10 @@ std::optional<ErrorKind> judge_extras(const AnalysisReport& report, const Option
       fail(fmt::format("--hold {}: error: {}: {}", *options.analyze.hold, to_string(pose.held->status),
                        pose.held->why));
     if (pose.curve && pose.curve->status != Status::converged)
-      fail(fmt::format("--curve {}: error: {} at --at {}: {} of {} points were found", *options.analyze.curve,
-                       to_string(pose.curve->status), options.analyze.at[i], pose.curve->points.size(),
-                       report.curve->steps + 1));
+      fail(fmt::format("--curve {}: error: {} at --at {}: {} of {} points were found{}",
+                       *options.analyze.curve, to_string(pose.curve->status), options.analyze.at[i],
+                       pose.curve->points.size(), report.curve->steps + 1,
+                       pose.curve->rigid ? "; " + reason(*pose.curve) : ""));
   }
   return error;
 }

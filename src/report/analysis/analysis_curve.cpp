@@ -1,5 +1,7 @@
 #include <fmt/core.h>
 
+#include <cmath>
+
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "report/analysis/analysis_parts.hpp"
@@ -33,22 +35,30 @@ std::string curve_text(std::size_t index, const ForceCurve& curve) {
   std::string text;
   for (const CurvePoint& point : curve.points)
     text += fmt::format("  {:>3}{:>18}{:>18}{:>18}   {}\n", index, format_fixed(point.displacement / mm, 6),
-                        format_fixed(point.force, 4), format_fixed(point.stiffness * um, 4),
+                        format_fixed(point.force, 4),
+                        std::isfinite(point.stiffness) ? format_fixed(point.stiffness * um, 4) : "rigid",
                         point.stable ? "stable" : "unstable");
   for (const CurvePoint& point : curve.critical)
     text += fmt::format("      critical load {} N at {} mm; beyond it unstable under a constant force\n",
                         format_fixed(point.force, 4), format_fixed(point.displacement / mm, 6));
   if (curve.status != Status::converged)
-    text += fmt::format("      {}: {}\n", to_string(curve.status),
-                        curve.points.empty() ? "the state without the force was not found"
-                                             : "the other points were not found");
+    text += fmt::format("      {}: {}\n", to_string(curve.status), reason(curve));
   return text;
 }
 
 }  // namespace
 
+std::string reason(const ForceCurve& curve) {
+  if (curve.status == Status::converged) return "";
+  if (curve.rigid) return "the machine is rigid along this direction: a force along it does not move the tip";
+  return curve.points.empty() ? "the state without the force was not found"
+                              : "the other points were not found";
+}
+
 Json curve_json(const ForceCurve& curve) {
+  const std::string why = reason(curve);
   return {{"status", to_string(curve.status)},
+          {"why", why.empty() ? Json(nullptr) : Json(why)},
           {"points", points_json(curve.points)},
           {"critical", points_json(curve.critical)}};
 }
@@ -71,8 +81,10 @@ std::string to_csv(const AnalysisReport& report) {
     if (!report.poses[i].curve) continue;
     for (const CurvePoint& point : report.poses[i].curve->points) {
       // A force of less than a micronewton is what rounding leaves of zero.
-      text += fmt::format("{},{},{:.12g},{:.12g},{}", i + 1, format_fixed(point.displacement / mm, 9),
-                          rounded(point.force, 6), point.stiffness, point.stable ? 1 : 0);
+      text += fmt::format("{},{},{:.12g},{},{}", i + 1, format_fixed(point.displacement / mm, 9),
+                          rounded(point.force, 6),
+                          std::isfinite(point.stiffness) ? fmt::format("{:.12g}", point.stiffness) : "",
+                          point.stable ? 1 : 0);
       for (const double x : point.X_MT.p) text += "," + format_fixed(x / mm, 9);
       text += "\n";
     }

@@ -154,8 +154,11 @@ ForceCurve force_curve(const Model& model, const Configuration& nominal, const C
   curve.status = loaded.status;
   if (loaded.status != Status::converged) return curve;
   const Follower follower(model, request, tip(model.mechanism, loaded.configuration).p, work.impl());
+  const auto compliance = compliance_at_tip(model, loaded.configuration, request.load, Stage{}, work);
   State free{0, 0, loaded.configuration, {}, 0};
-  if (!follower.solve(free)) {
+  if (compliance) free.stiffness = stiffness_along(*compliance, request.direction);
+  curve.rigid = std::isinf(free.stiffness);
+  if (!curve.rigid && !follower.solve(free)) {
     curve.status = Status::not_converged;
     return curve;
   }
@@ -165,6 +168,10 @@ ForceCurve force_curve(const Model& model, const Configuration& nominal, const C
   displacements.push_back(request.to);
   std::ranges::sort(displacements, {}, [](double d) { return std::abs(d); });
   if (displacements.front() == 0) curve.points.push_back(follower.point(free));
+  if (curve.rigid) {
+    if (displacements.back() != 0) curve.status = Status::singular;
+    return curve;
+  }
   for (const double side : {-1.0, 1.0})
     if (!follow_side(follower, free, side, displacements, curve)) curve.status = Status::not_converged;
   std::ranges::sort(curve.points, {}, &CurvePoint::displacement);

@@ -126,3 +126,23 @@ TEST_CASE("the force of a curve puts the tip where the curve defines") {
     }
   }
 }
+
+TEST_CASE("along a direction in which the machine is rigid a curve is singular, and its stiffness infinite") {
+  const Model model = model_of_text(R"(controlled = ["x"]
+[[chain]]
+name = "slide"
+elements = [ { actuator = "prismatic", axis = "x" }, { compliance = "prismatic", axis = "z", stiffness_N_per_m = 1e7 } ]
+)");
+  StaticsWork work(model.mechanism);
+  const ForceCurve x = force_curve(model, model.home, {Vector3::UnitX(), 0, 1e-3, 1}, work);
+  CHECK(x.rigid);
+  CHECK(x.status == Status::singular);
+  REQUIRE(x.points.size() == 1);
+  CHECK(std::isinf(x.points[0].stiffness));
+  const ForceCurve oblique =
+      force_curve(model, model.home, {Vector3(1, 0, 1).normalized(), 0, 1e-3, 1}, work);
+  CHECK_FALSE(oblique.rigid);
+  REQUIRE(oblique.status == Status::converged);
+  CHECK(oblique.points[0].stiffness == doctest::Approx(2e7).epsilon(1e-9));
+  CHECK(force_curve(model, model.home, {Vector3::UnitX(), 1e-3, 2e-3, 1}, work).points.empty());
+}
