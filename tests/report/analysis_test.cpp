@@ -496,3 +496,17 @@ TEST_CASE("a very soft machine has its stiffness in significant digits, and its 
   CHECK(contains(text, "softest to a force at the tip along (1.000, 0.000, 0.000): 0.0004 N/um\n"));
   CHECK(contains(text, "   0.000 1000.0000   0.0000   0.0000   0.0000"));
 }
+
+TEST_CASE("a sprung joint that is relaxed is not a preload") {
+  const auto text = [](const std::string& preload) {
+    return to_text(analyze(chain_of("{ parallel = [\"a\", \"b\"] }",
+                                    "branches.a = { elements = [ { compliance = \"revolute\", axis = \"z\", "
+                                    "stiffness_Nm_per_rad = 1e5 } ] }\n"
+                                    "branches.b = { elements = [ { passive = \"revolute\", axis = \"z\", "
+                                    "stiffness_Nm_per_rad = 1e5" +
+                                        preload + " } ] }"),
+                           {at_mm(0, 0, 0)}, {}, Method::direct, "0.1.0"));
+  };
+  CHECK(contains(text(""), ", no load\n"));
+  CHECK(contains(text(", preload_deg = 0.01"), ", no load but the machine's preloads\n"));
+}

@@ -73,6 +73,7 @@ struct PoseAnalysis {
   std::vector<ChainDetail> details;  ///< of `AnalysisExtras::full`
   std::optional<HeldPose> held;
   std::optional<ForceCurve> curve;
+  bool preloaded = false;  ///< springs of the nominal configuration are not relaxed
 };
 
 /// Why points of a force curve were not found, in words; empty where all were.
@@ -92,7 +93,7 @@ struct AnalysisReport {
   std::vector<PoseAnalysis> poses;
   std::string tool{};      ///< in the spindle, and its stiffness; empty: [tool]
   bool weighs = false;     ///< the machine's own weight acts, too
-  bool preloaded = false;  ///< its preloads do
+  bool preloaded = false;  ///< its preloads do, at one pose at least
   std::optional<CurveRequest> curve{};
 };
 

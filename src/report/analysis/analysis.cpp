@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
 #include <cmath>
 
 #include "counterflex/geometry/spectrum.hpp"
@@ -65,6 +66,13 @@ Solved solve_finite(const Model& model, const Configuration& nominal, const Pose
   const Vector6 d = deviation(tip(model.mechanism, loaded.configuration), X_MT);
   return {loaded.status,       d, loaded.configuration, loaded.configuration, everything, loaded.weakest,
           loaded.indeterminate};
+}
+
+bool is_preloaded(const Model& model, const Configuration& nominal) {
+  constexpr double rounding = 1e-15;  // J: 1e-12 rad or m of the stiffest springs of passive joints
+  for (std::size_t i = 0; i < nominal.chains.size(); ++i)
+    if (elastic_energy(model.mechanism.chains[i], nominal.chains[i], everything) > rounding) return true;
+  return false;
 }
 
 CorrectedTarget corrected_linearly(const Model& model, const Configuration& nominal, const Pose& X_MT,
@@ -183,6 +191,7 @@ PoseAnalysis analyze_pose(const Model& model, const Pose& X_MT, const Load& load
   if (nominal.status != Status::converged) return result;
   result.X_MT = tip(model.mechanism, nominal.configuration);
   result.rho = actuator_values(model.mechanism, nominal.configuration);
+  result.preloaded = is_preloaded(model, nominal.configuration);
   const Solved solved = method == Method::linear
                             ? solve_linear(model, nominal.configuration, load, work)
                             : solve_finite(model, nominal.configuration, result.X_MT, load, work);
@@ -219,9 +228,9 @@ AnalysisReport analyze(const Model& model, const std::vector<Pose>& poses, const
   AnalysisReport report{version, model.mechanism.name, load, model.mechanism.travel, model.mechanism.shown,
                         {}};
   report.weighs = has_weight(model.mechanism);
-  report.preloaded = has_preload(model.mechanism);
   report.curve = extras.curve;
   for (const Pose& X_MT : poses) report.poses.push_back(analyze_pose(model, X_MT, load, method, extras));
+  report.preloaded = std::ranges::any_of(report.poses, &PoseAnalysis::preloaded);
   return report;
 }
 
