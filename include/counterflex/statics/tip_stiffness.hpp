@@ -59,7 +59,8 @@ struct ForceCurve {
   bool rigid = false;
   std::vector<CurvePoint> points;  ///< by displacement; those that were found
   /// The last stable state before the first unstable one, on the way from displacement 0 to either side: a
-  /// limit point (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself.
+  /// limit point (stiffness zero) or a bifurcation. Its displacement is known to 1e-9 of itself. States are
+  /// judged at least at each 64th of the longer side.
   std::vector<CurvePoint> critical;
 };
 

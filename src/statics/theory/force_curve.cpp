@@ -10,6 +10,9 @@
 namespace counterflex {
 namespace {
 
+// How many states of the longer side are judged at least.
+constexpr int judged_parts = 64;
+
 // An equilibrium with the tip at a displacement, and the step of everything per metre of it.
 struct State {
   double displacement = 0, force = 0;
@@ -126,21 +129,26 @@ State critical_between(const Follower& follower, State stable, State unstable) {
 }
 
 // From the state without the force to one side, through those of `displacements`, which grow in size. Whether
-// all were found.
+// all were found. Between them states are judged that are at most a part of the side apart: a truss snaps
+// through between two states that are stable.
 bool follow_side(const Follower& follower, const State& free, double side,
                  const std::vector<double>& displacements, ForceCurve& curve) {
   State now = free;
   bool stable = true;
   for (const double displacement : displacements) {
     if (!(side * displacement > 0)) continue;
-    auto next = followed(follower, now, displacement);
-    if (!next) return false;
-    curve.points.push_back(follower.point(*next));
-    if (stable && !curve.points.back().stable) {
-      curve.critical.push_back(follower.point(critical_between(follower, now, *next)));
-      stable = false;
+    const double start = now.displacement, way = displacement - start;
+    const int parts = static_cast<int>(std::ceil(judged_parts * std::abs(way / displacements.back())));
+    for (int k = 1; k <= parts; ++k) {
+      auto next = followed(follower, now, k == parts ? displacement : start + way * k / parts);
+      if (!next) return false;
+      if (stable && !follower.is_stable(*next)) {
+        curve.critical.push_back(follower.point(critical_between(follower, now, *next)));
+        stable = false;
+      }
+      now = std::move(*next);
     }
-    now = std::move(*next);
+    curve.points.push_back(follower.point(now));
   }
   return true;
 }

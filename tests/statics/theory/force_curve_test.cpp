@@ -84,6 +84,20 @@ TEST_CASE("the curve of a two-bar truss is its closed form, before its limit poi
   CHECK(curve.critical[0].force == doctest::Approx(truss_force(truss_limit())).epsilon(1e-6));
 }
 
+TEST_CASE("a snap-through between two stable points of a curve has its critical load") {
+  const Model model = model_of_text(truss);
+  StaticsWork work(model.mechanism);
+  for (const CurveRequest& wide :
+       {CurveRequest{-Vector3::UnitZ(), 0, 0.045, 1}, CurveRequest{-Vector3::UnitZ(), 0, 0.09, 2},
+        CurveRequest{-Vector3::UnitZ(), 0.040, 0.045, 1}}) {
+    const ForceCurve curve = force_curve(model, model.home, wide, work);
+    REQUIRE(curve.status == Status::converged);
+    CHECK(curve.points.back().stable);
+    REQUIRE(curve.critical.size() == 1);
+    CHECK(curve.critical[0].force == doctest::Approx(truss_force(truss_limit())).epsilon(1e-6));
+  }
+}
+
 // Source: a pinned strut of two rigid halves of length a with a rotational spring k in its middle buckles at
 // 2k/a.
 TEST_CASE("the critical load of a pinned strut is 2k/a") {
