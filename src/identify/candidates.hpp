@@ -6,6 +6,9 @@
 
 namespace counterflex {
 
+/// Of the prior deviation: data that leave more do not identify a parameter, or what a row shows.
+inline constexpr double identified_share = 0.5;
+
 struct Candidates {
   std::vector<std::size_t> varied;       ///< indices into `parameters(machine)`
   std::vector<ParameterSet> set;         ///< by varied parameter: the first that has it

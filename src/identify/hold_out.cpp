@@ -9,6 +9,7 @@
 #include <numeric>
 
 #include "counterflex/files/parallel.hpp"
+#include "identify/candidates.hpp"
 
 namespace counterflex {
 namespace {
@@ -18,6 +19,8 @@ constexpr std::size_t parts = 5, regions = 4;
 constexpr std::size_t fewest = 10;              // rows of a group
 constexpr std::size_t slice = 64;               // rows for one thread at a time
 constexpr double interval = 1.959963984540054;  // deviations to each side: 95 %
+/// Of the noise of a row: parameters that move it by less within their prior deviations are not seen by it.
+constexpr double visible = 0.1;
 
 /// Whether other sessions show the same parameters. Those of single axes do not.
 bool is_like_others(MeasurementKind kind) {
@@ -28,7 +31,8 @@ std::vector<RowGroup> by_session(const FitProblem& problem) {
   std::vector<RowGroup> groups;
   for (std::size_t s = 0; s < problem.measurements.sessions.size(); ++s) {
     if (!is_like_others(problem.measurements.sessions[s].kind)) continue;
-    RowGroup group{problem.measurements.sessions[s].name, {}, true};
+    const Session& session = problem.measurements.sessions[s];
+    RowGroup group{session.name, {}, !unknowns_of(session).empty()};
     for (std::size_t i = 0; i < problem.measurements.rows.size(); ++i)
       if (problem.measurements.rows[i].session == s) group.rows.push_back(i);
     if (group.rows.size() >= fewest + frame_rows) groups.push_back(std::move(group));
@@ -87,18 +91,14 @@ double share_in_interval(const LinearRow& row, const Eigen::VectorXd& r, const S
   return static_cast<double>(inside) / static_cast<double>(r.size());
 }
 
-}  // namespace
+struct HeldFrames {
+  std::vector<SessionStep> frames;  ///< by session
+  std::vector<std::size_t> rows;    ///< of the group, without those that give its frames
+};
 
-std::vector<RowGroup> hold_out_groups(const FitProblem& problem, HoldOut kind) {
-  if (kind == HoldOut::region) return by_region(problem);
-  if (kind == HoldOut::fifth) return by_part(problem);
-  std::vector<RowGroup> groups = by_session(problem);
-  return groups.empty() && kind == HoldOut::automatic ? by_part(problem) : groups;
-}
-
-RowErrors errors_of(const FitProblem& problem, const RowGroup& group, const Fit& all,
-                    const FitStep& trained) {
-  std::vector<SessionStep> frames = trained.sessions;
+HeldFrames held_frames(const FitProblem& problem, const RowGroup& group, const Fit& all,
+                       const FitStep& trained) {
+  HeldFrames held{trained.sessions, {}};
   std::vector<bool> is_for_frames(all.rows.size(), false);
   if (group.has_own_frames) {
     // Evenly spread over the rows. The parameters are held where the training led them.
@@ -109,19 +109,63 @@ RowErrors errors_of(const FitProblem& problem, const RowGroup& group, const Fit&
         all.rows, unknowns, trained.parameters.size(), [&](std::size_t i) { return is_for_frames[i]; }, 1);
     move(trained.parameters, own);
     const std::size_t session = all.rows[group.rows[0]].session;
-    frames[session] = solve_session(own[session], unknowns[session]);
+    held.frames[session] = solve_session(own[session], unknowns[session]);
   }
-  RowErrors errors;
   for (const std::size_t i : group.rows)
-    if (!is_for_frames[i] && all.rows[i].at.is_found && all.rows[i].weight != 0) errors.rows.push_back(i);
-  errors.distance.resize(errors.rows.size());
-  errors.in_interval.resize(errors.rows.size());
-  std::vector<double> angle(errors.rows.size(), -1);
-  for_each_index((errors.rows.size() + slice - 1) / slice, problem.threads, [&](std::size_t s) {
-    for (std::size_t k = s * slice; k < std::min((s + 1) * slice, errors.rows.size()); ++k) {
-      const LinearRow& row = all.rows[errors.rows[k]];
-      const Measurement& measured = problem.measurements.rows[errors.rows[k]];
-      const SessionStep& frame = frames[row.session];
+    if (!is_for_frames[i] && all.rows[i].at.is_found && all.rows[i].weight != 0) held.rows.push_back(i);
+  return held;
+}
+
+}  // namespace
+
+std::vector<RowGroup> hold_out_groups(const FitProblem& problem, HoldOut kind) {
+  if (kind == HoldOut::region) return by_region(problem);
+  if (kind == HoldOut::fifth) return by_part(problem);
+  std::vector<RowGroup> groups = by_session(problem);
+  return groups.empty() && kind == HoldOut::automatic ? by_part(problem) : groups;
+}
+
+TestRows test_rows(const FitProblem& problem, const RowGroup& group, const Fit& all, const FitStep& trained,
+                   const Eigen::VectorXd& tried) {
+  const HeldFrames held = held_frames(problem, group, all, trained);
+  const Eigen::MatrixXd prior = tried.asDiagonal() * problem.correlation * tried.asDiagonal();
+  const Eigen::VectorXd is_tried = tried.unaryExpr([](double p) { return p > 0 ? 1.0 : 0.0; });
+  const Eigen::MatrixXd left = is_tried.asDiagonal() * trained.covariance * is_tried.asDiagonal();
+  TestRows result;
+  result.seen_by_tests.resize(static_cast<std::size_t>(tried.size()));
+  result.seen_by_untested = result.seen_by_tests;
+  for (const std::size_t i : held.rows) {
+    const LinearRow& row = all.rows[i];
+    const Eigen::MatrixXd J =
+        (row.at.J_p + row.at.J_s * held.frames[row.session].by_parameters).topRows(row.at.distances);
+    const double least = visible * visible * row.distance_scale * row.distance_scale;
+    const double before = (J * prior * J.transpose()).trace(), after = (J * left * J.transpose()).trace();
+    if (before <= least) {
+      result.blind.push_back(i);
+      continue;
+    }
+    const bool is_test = after < identified_share * identified_share * before;
+    (is_test ? result.tests : result.untested).push_back(i);
+    std::vector<bool>& seen = is_test ? result.seen_by_tests : result.seen_by_untested;
+    for (Eigen::Index k = 0; k < tried.size(); ++k)
+      if (J.col(k).squaredNorm() * tried[k] * tried[k] > least) seen[static_cast<std::size_t>(k)] = true;
+  }
+  return result;
+}
+
+RowErrors errors_of(const FitProblem& problem, const RowGroup& group, const std::vector<std::size_t>& rows,
+                    const Fit& all, const FitStep& trained) {
+  const HeldFrames held = held_frames(problem, group, all, trained);
+  RowErrors errors;
+  errors.rows = rows;
+  errors.distance.resize(rows.size());
+  errors.in_interval.resize(rows.size());
+  std::vector<double> angle(rows.size(), -1);
+  for_each_index((rows.size() + slice - 1) / slice, problem.threads, [&](std::size_t s) {
+    for (std::size_t k = s * slice; k < std::min((s + 1) * slice, rows.size()); ++k) {
+      const LinearRow& row = all.rows[rows[k]];
+      const Measurement& measured = problem.measurements.rows[rows[k]];
+      const SessionStep& frame = held.frames[row.session];
       const Eigen::VectorXd r = row.at.r + row.at.J_p * trained.parameters + row.at.J_s * frame.step;
       const Eigen::Index turns = r.size() - row.at.distances;
       errors.distance[k] = r.head(row.at.distances).norm() * measured.sigma;

@@ -61,9 +61,9 @@ Identification identify(const Machine& machine, const Measurements& measurements
   std::vector<Configuration> loaded;
   const std::vector<SessionFrames> frames =
       first_frames(problem, responses(machine, candidate.varied, states, options.threads, loaded));
-  const auto fit_of = [&](const std::vector<ParameterSet>& sets) {
+  const auto fit_of = [&](const Eigen::VectorXd& prior) {
     FitProblem with = problem;
-    with.prior = prior_of(candidate, sets);
+    with.prior = prior;
     return fit(with, frames);
   };
 
@@ -72,27 +72,27 @@ Identification identify(const Machine& machine, const Measurements& measurements
   const bool has_groups = !groups.empty();
   // Errors of motion can follow the rows far from the truth, and everything else with them. The ladder tries
   // them as linear steps from a fit without them; without rows to test them they are left out.
-  std::vector<ParameterSet> kept = options.sets;
-  if (options.ladder) std::erase_if(kept, depends_on_place);
-  Eigen::VectorXd fitted = prior_of(candidate, kept);
+  std::vector<ParameterSet> first = options.sets;
+  if (options.ladder) std::erase_if(first, depends_on_place);
+  Eigen::VectorXd kept = prior_of(candidate, first), fitted = kept;
   Fit about = fit_of(kept);
   std::optional<Ladder> ladder(std::in_place, problem, candidate, about, groups);
   if (has_groups && options.ladder) kept = climb(*ladder, problem, options.sets, result.ladder);
-  if (std::any_of(kept.begin(), kept.end(), depends_on_place) && options.ladder) {
+  const bool moves_with_place = ((kept - kept.cwiseMin(prior_of(candidate, first))).array() > 0).any();
+  if (moves_with_place) {
     about = fit_of(kept);
-    fitted = prior_of(candidate, kept);
+    fitted = kept;
     ladder.emplace(problem, candidate, about, groups);
   }
-  if (has_groups) result.held_out = held_out(*ladder, measurements, kept);
+  if (has_groups) result.held_out = held_out(*ladder, measurements, kept, result.untested_rows);
 
-  const Eigen::VectorXd prior = prior_of(candidate, kept);
-  const Fit final_fit = prior == fitted ? about : fit_of(kept);
+  const Fit final_fit = kept == fitted ? about : fit_of(kept);
   Eigen::MatrixXd covariance = final_fit.covariance;
   if (has_groups) widen_by_groups(*ladder, kept, covariance);
   result.iterations = final_fit.iterations;
   result.is_converged = final_fit.is_converged;
   fill_noise(problem, final_fit, result);
-  fill_parameters(machine, candidate, final_fit, prior, covariance, result);
+  fill_parameters(machine, candidate, final_fit, kept, covariance, result);
   fill_rows(problem, final_fit, result);
   return result;
 }

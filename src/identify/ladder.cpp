@@ -2,12 +2,15 @@
 
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <map>
 
 #include "identify/ranges.hpp"
 
 namespace counterflex {
 namespace {
+
+constexpr double not_seen = 0.9;  // of the prior deviation: rows that leave more do not see a parameter
 
 double mean_of(const std::vector<double>& values) {
   double sum = 0;
@@ -29,8 +32,31 @@ std::vector<double> relative_means(const Measurements& measurements, const std::
 
 double mean_error(const std::vector<RowErrors>& errors) {
   std::vector<double> means;
-  for (const RowErrors& group : errors) means.push_back(mean_of(group.distance));
+  for (const RowErrors& group : errors)
+    if (!group.rows.empty()) means.push_back(mean_of(group.distance));
   return mean_of(means);
+}
+
+std::vector<std::size_t> merged(const std::vector<std::size_t>& a, const std::vector<std::size_t>& b) {
+  std::vector<std::size_t> all;
+  std::merge(a.begin(), a.end(), b.begin(), b.end(), std::back_inserter(all));
+  return all;
+}
+
+/// Those that a row shows which the other rows cannot predict, and that no test has seen.
+std::vector<Eigen::Index> untested_parameters(const std::vector<TestRows>& groups, bool is_tested) {
+  std::vector<Eigen::Index> found;
+  for (std::size_t k = 0; k < groups[0].seen_by_tests.size(); ++k) {
+    bool by_tests = false, by_untested = false;
+    for (const TestRows& group : groups) {
+      by_tests = by_tests || group.seen_by_tests[k];
+      by_untested = by_untested || group.seen_by_untested[k];
+    }
+    // The rows of one group alone test nothing.
+    if (is_tested ? by_untested && !by_tests : by_untested || by_tests)
+      found.push_back(static_cast<Eigen::Index>(k));
+  }
+  return found;
 }
 
 }  // namespace
@@ -51,8 +77,11 @@ bool Ladder::has(ParameterSet set) const {
   return std::find(candidates_.set.begin(), candidates_.set.end(), set) != candidates_.set.end();
 }
 
-FitStep Ladder::trained(const std::vector<ParameterSet>& sets, std::size_t group) const {
-  const Eigen::VectorXd prior = prior_of(candidates_, sets);
+Eigen::VectorXd Ladder::prior_of(ParameterSet set) const {
+  return counterflex::prior_of(candidates_, {set});
+}
+
+FitStep Ladder::trained(const Eigen::VectorXd& prior, std::size_t group) const {
   Eigen::VectorXd back = Eigen::VectorXd::Zero(prior.size());
   for (Eigen::Index k = 0; k < prior.size(); ++k)
     if (prior[k] == 0) back[k] = problem_.before[k] - all_.values[k];
@@ -64,47 +93,67 @@ FitStep Ladder::trained(const std::vector<ParameterSet>& sets, std::size_t group
   return step;
 }
 
-std::vector<RowErrors> Ladder::errors(const std::vector<ParameterSet>& sets) const {
-  std::vector<RowErrors> result;
+std::vector<TestRows> Ladder::tests(const Eigen::VectorXd& prior, const Eigen::VectorXd& tried) const {
+  std::vector<TestRows> result;
   for (std::size_t g = 0; g < groups_.size(); ++g)
-    result.push_back(errors_of(problem_, groups_[g], all_, trained(sets, g)));
+    result.push_back(test_rows(problem_, groups_[g], all_, trained(prior, g), tried));
   return result;
 }
 
-std::vector<ParameterSet> climb(const Ladder& ladder, const FitProblem& problem,
-                                const std::vector<ParameterSet>& sets, std::vector<LadderStep>& steps) {
+std::vector<RowErrors> Ladder::errors(const Eigen::VectorXd& prior,
+                                      const std::vector<std::vector<std::size_t>>& rows) const {
+  std::vector<RowErrors> result;
+  for (std::size_t g = 0; g < groups_.size(); ++g)
+    result.push_back(errors_of(problem_, groups_[g], rows[g], all_, trained(prior, g)));
+  return result;
+}
+
+Eigen::VectorXd climb(const Ladder& ladder, const FitProblem& problem, const std::vector<ParameterSet>& sets,
+                      std::vector<LadderStep>& steps) {
   const Measurements& measurements = problem.measurements;
-  std::vector<ParameterSet> kept;
-  std::vector<RowErrors> now = ladder.errors(kept);
+  const std::vector<Parameter> all = parameters(problem.machine);
+  Eigen::VectorXd kept = Eigen::VectorXd::Zero(problem.prior.size());
   for (const ParameterSet set : sets) {
     if (!ladder.has(set)) continue;
-    std::vector<ParameterSet> with = kept;
-    with.push_back(set);
-    const std::vector<RowErrors> next = ladder.errors(with);
+    const Eigen::VectorXd with = kept.cwiseMax(ladder.prior_of(set));
+    const std::vector<TestRows> tests = ladder.tests(with, with - kept);
+    std::vector<std::vector<std::size_t>> rows;
+    for (const TestRows& group : tests) {
+      rows.push_back(group.tests);
+      // Places beyond a range that was measured test errors of motion: these have to be left out there.
+      if (depends_on_place(set)) rows.back() = merged(group.tests, group.untested);
+    }
+    const std::vector<RowErrors> now = ladder.errors(kept, rows), next = ladder.errors(with, rows);
     const std::vector<double> before = relative_means(measurements, now),
                               after = relative_means(measurements, next);
     std::vector<double> gains;
     for (std::size_t g = 0; g < before.size(); ++g)
-      gains.push_back(before[g] > 0 ? (before[g] - after[g]) / before[g] : 0);
-    const double gain = mean_of(gains);
-    double squares = 0;
-    for (const double g : gains) squares += (g - gain) * (g - gain);
-    const auto count = static_cast<double>(gains.size());
-    LadderStep step{set,  mean_error(now), mean_error(next), gain, std::sqrt(squares / (count * (count - 1))),
-                    false};
+      if (!rows[g].empty()) gains.push_back(before[g] > 0 ? (before[g] - after[g]) / before[g] : 0);
+    LadderStep step{set, mean_error(now), mean_error(next)};
+    step.is_tested = gains.size() >= 2;
     step.left = left_range(problem, ladder.groups(), set);
-    step.is_kept = gain > step.gain_scatter && !step.left;
-    if (step.is_kept) {
-      kept = with;
-      now = next;
+    if (step.is_tested) {
+      step.gain = mean_of(gains);
+      double squares = 0;
+      for (const double g : gains) squares += (g - step.gain) * (g - step.gain);
+      const auto count = static_cast<double>(gains.size());
+      step.gain_scatter = std::sqrt(squares / (count * (count - 1)));
+      step.is_kept = step.gain > step.gain_scatter && !step.left;
     }
+    if (step.is_kept)
+      kept = with;
+    else if (!depends_on_place(set))
+      for (const Eigen::Index k : untested_parameters(tests, step.is_tested)) {
+        kept[k] = with[k];
+        step.untested.push_back(all[problem.varied[static_cast<std::size_t>(k)]].name);
+      }
     steps.push_back(step);
   }
   return kept;
 }
 
 std::vector<HeldOutGroup> held_out(const Ladder& ladder, const Measurements& measurements,
-                                   const std::vector<ParameterSet>& kept) {
+                                   const Eigen::VectorXd& kept, std::size_t& untested) {
   struct Errors {
     std::vector<double> distance, angle;
   };
@@ -113,7 +162,13 @@ std::vector<HeldOutGroup> held_out(const Ladder& ladder, const Measurements& mea
     std::vector<double> in_interval;
   };
   std::vector<HeldOutGroup> list;
-  const std::vector<RowErrors> before = ladder.errors({}), after = ladder.errors(kept);
+  std::vector<std::vector<std::size_t>> rows;
+  for (const TestRows& group : ladder.tests(kept, kept)) {
+    rows.push_back(merged(group.tests, group.blind));
+    untested += group.untested.size();
+  }
+  const std::vector<RowErrors> before = ladder.errors(Eigen::VectorXd::Zero(kept.size()), rows),
+                               after = ladder.errors(kept, rows);
   for (std::size_t g = 0; g < before.size(); ++g) {
     std::map<std::pair<MeasurementKind, bool>, Kind> kinds;  // with whether values are lengths
     const auto kind_of = [&](std::size_t row) {
@@ -141,20 +196,21 @@ std::vector<HeldOutGroup> held_out(const Ladder& ladder, const Measurements& mea
   return list;
 }
 
-void widen_by_groups(const Ladder& ladder, const std::vector<ParameterSet>& kept,
-                     Eigen::MatrixXd& covariance) {
+void widen_by_groups(const Ladder& ladder, const Eigen::VectorXd& kept, Eigen::MatrixXd& covariance) {
   const auto groups = static_cast<double>(ladder.groups().size());
   if (groups < 2) return;
-  std::vector<Eigen::VectorXd> values;
-  for (std::size_t g = 0; g < ladder.groups().size(); ++g)
-    values.push_back(ladder.trained(kept, g).parameters);
-  Eigen::VectorXd mean = Eigen::VectorXd::Zero(values[0].size());
-  for (const Eigen::VectorXd& v : values) mean += v / groups;
+  std::vector<FitStep> fits;
+  for (std::size_t g = 0; g < ladder.groups().size(); ++g) fits.push_back(ladder.trained(kept, g));
   // The 99 % quantile of chi^2 over its freedoms, by Wilson and Hilferty.
   const double f = groups - 1, chance = std::pow(1 - 2 / (9 * f) + 2.326 * std::sqrt(2 / (9 * f)), 3);
-  for (Eigen::Index k = 0; k < mean.size(); ++k) {
-    double squares = 0;
-    for (const Eigen::VectorXd& v : values) squares += (v[k] - mean[k]) * (v[k] - mean[k]);
+  for (Eigen::Index k = 0; k < kept.size(); ++k) {
+    double mean = 0, squares = 0, largest = 0;
+    for (const FitStep& fit : fits) mean += fit.parameters[k] / groups;
+    for (const FitStep& fit : fits) {
+      squares += (fit.parameters[k] - mean) * (fit.parameters[k] - mean);
+      largest = std::max(largest, fit.covariance(k, k));
+    }
+    if (largest > not_seen * not_seen * kept[k] * kept[k]) continue;
     const double jackknife = (groups - 1) / groups * squares;
     if (!(jackknife > chance * covariance(k, k)) || !(covariance(k, k) > 0)) continue;
     const double factor = std::sqrt(jackknife / covariance(k, k));

@@ -15,12 +15,19 @@ class Ladder {
 
   bool has(ParameterSet set) const;
 
-  /// The step for a fit with these sets to the rows outside of a group. Other parameters have their values in
-  /// the file.
-  FitStep trained(const std::vector<ParameterSet>& sets, std::size_t group) const;
+  /// The candidates of a set, 0 for the others.
+  Eigen::VectorXd prior_of(ParameterSet set) const;
 
-  /// Of the rows of each group, after the step that was trained without them.
-  std::vector<RowErrors> errors(const std::vector<ParameterSet>& sets) const;
+  /// The step for a fit to the rows outside of a group. Parameters whose prior deviation is 0 have their
+  /// values in the file.
+  FitStep trained(const Eigen::VectorXd& prior, std::size_t group) const;
+
+  /// By group: what its rows show of the parameters `tried`, where the others are fitted with `prior`.
+  std::vector<TestRows> tests(const Eigen::VectorXd& prior, const Eigen::VectorXd& tried) const;
+
+  /// Of rows of each group, after the step that was trained without it.
+  std::vector<RowErrors> errors(const Eigen::VectorXd& prior,
+                                const std::vector<std::vector<std::size_t>>& rows) const;
 
   const std::vector<RowGroup>& groups() const { return groups_; }
 
@@ -32,20 +39,23 @@ class Ladder {
   std::vector<NormalMatrices> training_;  ///< by group: of the rows outside
 };
 
-/// The sets that are kept, of `sets` in their order. A set stays where the held-out rows improve by more than
-/// the standard error of that; tables and harmonics only if no group leaves the range of an actuator that the
-/// other rows have.
-std::vector<ParameterSet> climb(const Ladder& ladder, const FitProblem& problem,
-                                const std::vector<ParameterSet>& sets, std::vector<LadderStep>& steps);
+/// Prior deviations of the parameters that are kept, 0 for the others. Sets are tried in the order of `sets`.
+/// A set stays where the held-out rows improve by more than the standard error of that; tables and harmonics
+/// only if no group leaves the range of an actuator that the other rows have. The rows of at least two groups
+/// have to test a set. Of a set that does not stay, those parameters do that no test has seen and that a row
+/// shows which the other rows cannot predict; tables and harmonics do not stay then.
+Eigen::VectorXd climb(const Ladder& ladder, const FitProblem& problem, const std::vector<ParameterSet>& sets,
+                      std::vector<LadderStep>& steps);
 
-/// Held-out rows before and after a fit with the sets, by group and kind.
+/// Held-out rows before and after a fit with the kept parameters, by group and kind. Rows that the other rows
+/// cannot predict are counted in `untested`.
 std::vector<HeldOutGroup> held_out(const Ladder& ladder, const Measurements& measurements,
-                                   const std::vector<ParameterSet>& kept);
+                                   const Eigen::VectorXd& kept, std::size_t& untested);
 
 /// Where fits without one group each differ by more than the covariance explains, the misfit is not noise.
-/// The deviation is then that of the delete-a-group jackknife. Source: Efron, Tibshirani, "An Introduction to
-/// the Bootstrap" (1993), chapter 11.
-void widen_by_groups(const Ladder& ladder, const std::vector<ParameterSet>& kept,
-                     Eigen::MatrixXd& covariance);
+/// The deviation is then that of the delete-a-group jackknife. A parameter that is not seen by the rows
+/// outside of one group keeps its deviation: the fit to these has the prior, which shows no scatter. Source:
+/// Efron, Tibshirani, "An Introduction to the Bootstrap" (1993), chapter 11.
+void widen_by_groups(const Ladder& ladder, const Eigen::VectorXd& kept, Eigen::MatrixXd& covariance);
 
 }  // namespace counterflex

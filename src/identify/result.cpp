@@ -7,7 +7,6 @@
 namespace counterflex {
 namespace {
 
-constexpr double identified = 0.5;  // of the prior deviation: larger ones are not identified
 constexpr double strong_correlation = 0.9;
 constexpr double least_part = 0.3;  // of its deviation: a parameter of a free combination that changes less
 constexpr std::size_t most_outliers = 50, most_worst = 10;
@@ -43,7 +42,7 @@ std::vector<FreeCombination> free_combinations(const std::vector<IdentifiedParam
   for (Eigen::Index k = 0; k < n; ++k) prior[k] = parameters[static_cast<std::size_t>(k)].prior;
   const Eigen::SelfAdjointEigenSolver<Eigen::MatrixXd> eigen(prior.cwiseInverse().asDiagonal() * covariance *
                                                              prior.cwiseInverse().asDiagonal());
-  const auto count = (eigen.eigenvalues().array() > identified * identified).count();
+  const auto count = (eigen.eigenvalues().array() > identified_share * identified_share).count();
   Eigen::MatrixXd rows = eigen.eigenvectors().rightCols(count).transpose();
   reduce(rows);
   std::vector<FreeCombination> found;
@@ -73,7 +72,7 @@ void fill_parameters(const Machine& machine, const Candidates& candidates, const
     const double sigma = std::min(std::sqrt(covariance(k, k)), prior[k]);
     result.parameters.push_back(
         {all[index].name, all[index].kind, all[index].unit, all[index].value, fit.values[k], prior[k], sigma,
-         candidates.is_default[static_cast<std::size_t>(k)], sigma < identified * prior[k]});
+         candidates.is_default[static_cast<std::size_t>(k)], sigma < identified_share * prior[k]});
     values[index] = fit.values[k];
   }
   result.machine = with_parameters(machine, values);

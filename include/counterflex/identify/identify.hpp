@@ -87,6 +87,9 @@ struct LadderStep {
   double gain_scatter = 0;       ///< standard error of that mean
   bool is_kept = false;
   std::optional<LeftRange> left{};  ///< of tables and harmonics: then they are not kept
+  bool is_tested = false;           ///< rows of two groups show what fits without them predict; else no gain
+  /// Parameters of a set that is not kept which stay, because rows show them that the other rows cannot test.
+  std::vector<std::string> untested{};
 };
 
 /// Noise of a session from repeated readings, and what its rows miss beyond that. Of positions these are
@@ -130,6 +133,7 @@ struct Identification {
   Eigen::MatrixXd covariance;                   ///< SI, in the same order
   std::vector<LadderStep> ladder;
   std::vector<HeldOutGroup> held_out;
+  std::size_t untested_rows = 0;  ///< held out, but the other rows do not determine what they show
   std::vector<Outlier> outliers;  ///< left out of the fit; the farthest 50
   std::size_t outlier_count = 0;
   std::vector<Location> worst;

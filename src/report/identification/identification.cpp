@@ -186,7 +186,9 @@ Json json_of(const LadderStep& step) {
   Json json{{"set", name_of(step.set)},
             {"gain", step.gain},
             {"standard_error", step.gain_scatter},
+            {"tested", step.is_tested},
             {"kept", step.is_kept}};
+  if (!step.untested.empty()) json["untested_parameters"] = step.untested;
   if (step.left) json["left_range"] = json_of(*step.left);
   return json;
 }
@@ -219,15 +221,21 @@ std::string to_text(const Identification& found, bool all_parameters) {
       text += fmt::format("             orientation: {} (deg)\n",
                           pair_of(group.angle_before, group.angle_after, deg));
   }
-  if (found.held_out.empty())
+  if (found.held_out.empty() && found.untested_rows == 0)
     text +=
         "held out     nothing: there are not two groups (sessions, regions or parts) with enough rows; see "
         "--hold-out\n";
+  if (found.untested_rows > 0)
+    text += fmt::format("not tested   {} rows: the others do not determine what they show\n",
+                        found.untested_rows);
   for (const LadderStep& step : found.ladder) {
-    text += fmt::format("{:<12} {}: removes {:.1f} % of the held-out error, standard error {:.1f} %\n",
-                        step.is_kept ? "kept" : "rejected", name_of(step.set), 100 * step.gain,
-                        100 * step.gain_scatter);
+    if (step.is_tested)
+      text += fmt::format("{:<12} {}: removes {:.1f} % of the held-out error, standard error {:.1f} %\n",
+                          step.is_kept ? "kept" : "rejected", name_of(step.set), 100 * step.gain,
+                          100 * step.gain_scatter);
     if (step.left) text += fmt::format("             not tested there: {}\n", range_words(*step.left));
+    if (!step.is_tested || !step.untested.empty())
+      text += fmt::format("not tested   {}: {}\n", name_of(step.set), untested_words(step));
   }
   text += misfit_lines(found);
   text += parameter_lines(found, all_parameters);
@@ -260,6 +268,7 @@ std::string to_json(const Identification& found) {
   for (const LadderStep& step : found.ladder) json["ladder"].push_back(json_of(step));
   json["held_out"] = Json::array();
   for (const HeldOutGroup& group : found.held_out) json["held_out"].push_back(json_of(group));
+  json["untested_rows"] = found.untested_rows;
   json["lack_of_fit_mm"] = found.lack_of_fit ? Json(*found.lack_of_fit / mm) : Json(nullptr);
   if (found.misfit) json["misfit"] = *found.misfit;
   json["repeatability_mm"] = found.repeatability ? Json(*found.repeatability / mm) : Json(nullptr);

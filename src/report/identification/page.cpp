@@ -57,7 +57,7 @@ std::string arrow(double before, double after) {
 /// One line as people quote it.
 std::string lead(const Identification& found) {
   if (found.held_out.empty())
-    return "<p class=\"lead\">No row was held out: how well the values predict is not known.</p>\n";
+    return "<p class=\"lead\">No held-out row tests the fit: how well the values predict is not known.</p>\n";
   std::string text;
   for (const HeldOutGroup& group : found.held_out) {
     const ErrorUnit unit = unit_of(group.kind, group.is_length);
@@ -90,12 +90,17 @@ std::string held_out_table(const Identification& found) {
   if (found.ladder.empty()) return text;
   text +=
       "<table>\n" + row({"set of parameters", "removes of the held-out error", "standard error", ""}, "th");
-  for (const LadderStep& step : found.ladder)
-    text += row({std::string(name_of(step.set)), fmt::format("{:.1f} %", 100 * step.gain),
-                 fmt::format("{:.1f} %", 100 * step.gain_scatter),
-                 step.is_kept ? "kept"
-                 : step.left  ? "rejected, not tested there: " + xml_escaped(range_words(*step.left))
-                              : "rejected"});
+  for (const LadderStep& step : found.ladder) {
+    if (step.is_tested)
+      text += row({std::string(name_of(step.set)), fmt::format("{:.1f} %", 100 * step.gain),
+                   fmt::format("{:.1f} %", 100 * step.gain_scatter),
+                   step.is_kept ? "kept"
+                   : step.left  ? "rejected, not tested there: " + xml_escaped(range_words(*step.left))
+                                : "rejected"});
+    if (!step.is_tested || !step.untested.empty())
+      text +=
+          row({std::string(name_of(step.set)), "", "", "not tested: " + xml_escaped(untested_words(step))});
+  }
   return text + "</table>\n";
 }
 

@@ -37,6 +37,9 @@ inline double shown_value(const IdentifiedParameter& p) {
 /// "C moves axis A2 from -120 to 10 deg; in the other rows it moves from -100 to -20 deg"
 std::string range_words(const LeftRange& left);
 
+/// Why a set was not tested, and the parameters that stay all the same.
+std::string untested_words(const LadderStep& step);
+
 /// "a reading scatters by 0.054 mm (120 repeats) ..."
 std::string noise_words(const SessionNoise& noise);
 

@@ -1,4 +1,5 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include "report/identification/units.hpp"
 
@@ -10,6 +11,12 @@ std::string range_words(const LeftRange& left) {
       "{} moves {} from {:.4g} to {:.4g} {}; in the other rows it moves from {:.4g} to {:.4g} {}", left.group,
       left.actuator, left.tested_min / unit, left.tested_max / unit, left.turns ? "deg" : "mm",
       left.trained_min / unit, left.trained_max / unit, left.turns ? "deg" : "mm");
+}
+
+std::string untested_words(const LadderStep& step) {
+  if (step.untested.empty()) return "no held-out row shows what the other rows predict; left out";
+  return fmt::format("the rows that show these are not predicted by other rows; they stay: {}",
+                     fmt::join(step.untested, ", "));
 }
 
 std::string residual_words(const Identification& found) {
