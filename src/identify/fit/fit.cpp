@@ -5,6 +5,7 @@
 #include <cmath>
 
 #include "counterflex/files/parallel.hpp"
+#include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
 namespace {
@@ -25,6 +26,9 @@ constexpr double negligible = 1e-4, negligible_share = 1e-9;
 constexpr std::size_t rows_of_slice = 64;  // rows for one thread at a time
 constexpr int most_frame_rounds = 10;
 constexpr double end_of_frame_steps = 1e-4;  // of their deviations at held parameters
+/// Of the frame in which a coupon was measured, from the nominal one: weak against rows that show it. Where
+/// rows leave a lean unknown, a large one would change sizes to second order.
+constexpr double coupon_shift = 5 * mm, coupon_turn = 1e-3;
 constexpr std::size_t few = 20;  // rows: below, the stated deviation is better than that of the residuals
 // Medians of the norms of 1 and 3 standard normal variables.
 constexpr std::array<double, 4> median_norm = {0, 0.6744897501960817, 0, 1.5381722544550522};
@@ -271,9 +275,17 @@ std::vector<SessionUnknowns> unknowns_of(const FitProblem& problem,
   for (std::size_t s = 0; s < frames.size(); ++s) {
     const Session& session = problem.measurements.sessions[s];
     SessionUnknowns one{unknowns_of(session)};
-    if (session.kind == MeasurementKind::tracker_point || session.kind == MeasurementKind::tracker_pose) {
+    const bool is_tracker =
+        session.kind == MeasurementKind::tracker_point || session.kind == MeasurementKind::tracker_pose;
+    if (is_tracker && session.probe_sigma > 0) {
       one.from_prior.segment<3>(6) = frames[s].X_TB.p - session.X_TB.p;
       one.information.segment<3>(6).setConstant(1 / (session.probe_sigma * session.probe_sigma));
+    }
+    if (session.kind == MeasurementKind::cmm_feature) {
+      one.from_prior.head<3>() = frames[s].X_SM.p;
+      one.from_prior.segment<3>(3) = log_so3(frames[s].X_SM.R);
+      one.information.head<3>().setConstant(1 / (coupon_shift * coupon_shift));
+      one.information.segment<3>(3).setConstant(1 / (coupon_turn * coupon_turn));
     }
     all.push_back(std::move(one));
   }
@@ -295,8 +307,10 @@ Fit fit(const FitProblem& problem, std::vector<SessionFrames> start) {
     const LinearFit found = fit_linear(problem, rounds, damping, at);
     const double size = size_of(found.step.parameters, found.step.covariance);
     const bool is_slow = size > slow_contraction_of_steps * last_size;
-    result.is_converged =
-        (size < end_of_steps || (size < largest_rounding && is_slow)) && damping <= 2 * first_damping;
+    // Without a parameter that moves, the frames have to take a step all the same.
+    result.is_converged = result.iterations > 1 &&
+                          (size < end_of_steps || (size < largest_rounding && is_slow)) &&
+                          damping <= 2 * first_damping;
     last_size = size;
     if (result.is_converged || result.iterations == most_linearisations) break;
     Point next = point_after(problem, at, found);
