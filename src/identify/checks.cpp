@@ -112,7 +112,7 @@ void check_sessions(const Measurements& measurements) {
       spread = std::max(spread, (row.states[0].shown - first->states[0].shown).cwiseAbs().maxCoeff());
     }
     // Sizes of a coupon leave the radius of the tool unknown, not the frame.
-    const std::size_t unknowns = has_frame ? unknowns_of(session).size() : 1;
+    const std::size_t unknowns = session.has_known_frame ? 0 : has_frame ? unknowns_of(session).size() : 1;
     if (first == nullptr) continue;
     if (session.kind == MeasurementKind::static_push || session.kind == MeasurementKind::hung_weight)
       check_signs(measurements, s);

@@ -245,6 +245,7 @@ Measurements printed_rows() {
   Measurements all;
   all.sessions.push_back({"table 2", MeasurementKind::tracker_pose, true, Pose{}});
   all.sessions[0].has_known_frame = true;
+  all.sessions[0].probe_sigma = 0;
   for (const Row& printed : table) {
     Measurement row;
     row.at = {"table2.csv", static_cast<int>(all.rows.size()) + 2, 1};

@@ -80,9 +80,9 @@ struct Session {
   MeasurementKind kind = MeasurementKind::tracker_point;
   bool sigma_given = false;  ///< else that of its rows is a default
   Pose X_TB{};               ///< probe B in the tip's frame, where it is expected
-  /// Rows are in the machine frame, of the probe at X_TB; a plane is z = 0 of that frame. No unknown frames.
+  /// Rows are in the machine frame, of the probe near X_TB; a plane is z = 0 of that frame.
   bool has_known_frame = false;
-  double probe_sigma = 0.3;  ///< standard deviation of its position (m)
+  double probe_sigma = 0.3;  ///< standard deviation of its position (m); 0: it is known
   /// Pushes: whether rows were read while the force grew, and while it fell. With both, half the difference
   /// that friction makes is unknown.
   bool has_loading = false, has_unloading = false;

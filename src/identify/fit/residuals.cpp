@@ -159,7 +159,10 @@ std::vector<int> unknowns_of(MeasurementKind kind) {
 
 std::vector<int> unknowns_of(const Session& session) {
   if (session.has_loading && session.has_unloading) return {12};
-  return session.has_known_frame ? std::vector<int>{} : unknowns_of(session.kind);
+  if (!session.has_known_frame) return unknowns_of(session.kind);
+  const bool is_tracker =
+      session.kind == MeasurementKind::tracker_point || session.kind == MeasurementKind::tracker_pose;
+  return is_tracker && session.probe_sigma > 0 ? std::vector<int>{6, 7, 8} : std::vector<int>{};
 }
 
 SessionFrames moved(const SessionFrames& frames, const Eigen::Matrix<double, session_unknowns, 1>& step) {

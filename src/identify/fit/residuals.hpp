@@ -21,7 +21,7 @@ inline constexpr int session_unknowns = 13;
 /// Those that rows of a kind determine.
 std::vector<int> unknowns_of(MeasurementKind kind);
 
-/// Those of a session: none, if its frame is known.
+/// Those of a session. If its frame is known, only the position of a probe that has a deviation.
 std::vector<int> unknowns_of(const Session& session);
 
 /// Moves frames by a step of all unknowns.

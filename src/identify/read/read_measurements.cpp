@@ -112,6 +112,7 @@ class RowReader {
     all_.sessions.push_back({name, kind, sigma_given, description_.X_TB});
     all_.sessions.back().file = file_;
     all_.sessions.back().has_known_frame = description_.has_known_frame;
+    if (description_.has_known_frame) all_.sessions.back().probe_sigma = 0;
     if (description_.probe_sigma) all_.sessions.back().probe_sigma = *description_.probe_sigma;
     return all_.sessions.size() - 1;
   }
