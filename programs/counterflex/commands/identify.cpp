@@ -49,6 +49,16 @@ OutputFiles output_files(const Options& options) {
   return files;
 }
 
+/// A machine file has a deviation for each parameter, not how these depend on each other.
+std::string covariance_words(const Identification& found, const OutputFiles& files) {
+  if (files.machine.empty() || (found.free.empty() && found.correlations.empty())) return "";
+  return fmt::format(
+      "             deviations in {} depend on each other: bands need covariance = \"{}\" in "
+      "[uncertainty]{}\n",
+      without_controls(files.machine), files.report.empty() ? "STEM.json" : without_controls(files.report),
+      files.report.empty() ? "; --report STEM writes that file" : "");
+}
+
 /// The files, and the result for the terminal or a pipe.
 void write_files(const Options& options, const MachineInput& machine, const Identification& found,
                  const OutputFiles& files) {
@@ -73,7 +83,8 @@ void write_files(const Options& options, const MachineInput& machine, const Iden
   for (const std::string& file : {files.machine, files.report, files.page})
     if (!file.empty()) written += (written.empty() ? "" : ", ") + without_controls(file);
   write_result(to_text(found, options.verbose) +
-               (written.empty() ? "" : fmt::format("\nwritten      {}\n", written)));
+               (written.empty() ? "" : fmt::format("\nwritten      {}\n", written)) +
+               covariance_words(found, files));
 }
 
 }  // namespace

@@ -5,12 +5,14 @@
 #include <algorithm>
 #include <array>
 #include <filesystem>
+#include <set>
 
 #include "counterflex/files/files.hpp"
 #include "counterflex/files/text.hpp"
 #include "counterflex/report/identification.hpp"
 #include "process/read_input.hpp"
 #include "process/version.hpp"
+#include "run/job_files.hpp"
 #include "run/program_places.hpp"
 
 namespace counterflex::cli {
@@ -52,6 +54,15 @@ bool are_deflections(const Measurements& measurements) {
   return std::all_of(measurements.sessions.begin(), measurements.sessions.end(), [](const Session& session) {
     return session.kind == MeasurementKind::static_push || session.kind == MeasurementKind::hung_weight;
   });
+}
+
+/// The rows of a file that is read twice would count twice.
+void refuse_data_twice(const std::vector<std::string>& files) {
+  std::set<std::string> seen;
+  for (const std::string& file : files)
+    if (!seen.insert(canonical_name(file)).second)
+      throw InputError(ErrorKind::usage, {file},
+                       "--data names this file twice, and its rows would count twice: name each file once");
 }
 
 /// Of --for, if it is given.
@@ -102,6 +113,7 @@ std::optional<ErrorKind> identify_run(const Options& options, const MachineInput
   IdentifyOptions wanted = identify_options(options);
   if (const std::string& prior = options.identify.prior; !prior.empty())
     wanted.prior = read_covariance(read_input(prior, ErrorKind::machine_or_force), prior, input.machine);
+  refuse_data_twice(options.identify.data);
   Measurements measurements;
   or_unreadable(ErrorKind::machine_or_force, [&] {
     for (const std::string& file : options.identify.data)
