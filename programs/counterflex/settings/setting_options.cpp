@@ -235,7 +235,7 @@ const std::array option_table{
                   "Write the deviation along the path and its causes as a picture", "", false, take_plot},
     SettingOption{
         "force-overwrite", "--force-overwrite", "", group::output,
-        "Replace existing files that counterflex did not write", "", false,
+        "Replace existing machine files, sheets, and files that counterflex did not write", "", false,
         [](Text name, Text text, Options& options) { options.force_overwrite = truth_of(name, text); }},
     SettingOption{
         "output",
