@@ -185,20 +185,29 @@ void motion_changes(const Original& o, int motion, bool state_motion, Changes& c
     return is_axis(w) || is_centre(w) || (o.move.orientation && is_angle(w));
   });
   if (first == words.end()) return;
-  changes.list.push_back({{first->span.begin, first->span.begin}, motion_text(o, motion) + o.separator});
   ++changes.inserted;
+  if (first != words.begin() && motion == 1 && is_centre(*first)) {  // a word that is removed with its blanks
+    const std::size_t at = std::prev(first)->span.end;
+    return changes.list.push_back({{at, at}, o.separator + motion_text(o, motion)});
+  }
+  changes.list.push_back({{first->span.begin, first->span.begin}, motion_text(o, motion) + o.separator});
 }
 
-/// A word at the beginning of the block is removed with the blanks behind it.
+/// A first word keeps the blanks behind it.
 void block_number_changes(const Original& o, const std::string& number, Changes& changes) {
   const Word* word = find_word(o.block, 'N');
   if (word == nullptr) return;
   if (!number.empty()) return changes.list.push_back({word->span, number});
-  if (word != o.block.words.data()) return drop_word(o, *word, changes);
-  Span span = word->span;
-  while (span.end < o.block.span.end && (o.program.text[span.end] == ' ' || o.program.text[span.end] == '\t'))
-    ++span.end;
-  changes.list.push_back({span, {}});
+  drop_word(o, *word, changes);
+}
+
+/// The blanks that are left where an N was removed that was the first word of the block.
+void drop_blanks_of_number(const Original& o, std::string& line) {
+  const Word* word = find_word(o.block, 'N');
+  if (word == nullptr || word != o.block.words.data()) return;
+  const std::size_t begin = word->span.begin - o.block.span.begin,
+                    end = std::min(line.find_first_not_of(" \t", begin), line.size());
+  line.erase(begin, end - begin);
 }
 
 /// Digits for which the time of a piece is exact to a millionth.
@@ -268,6 +277,7 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
   out.changed_words += changes.changed;
   out.inserted_words += changes.inserted;
   std::string line = applied(o, std::move(changes.list));
+  if (besides.number && besides.number->empty()) drop_blanks_of_number(o, line);
   check_length(o, line);
   return line;
 }

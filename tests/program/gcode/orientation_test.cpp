@@ -99,3 +99,12 @@ TEST_CASE("points inserted into a move carry their angles") {
         "A-1.5 (turns in place)\n"
         "X20. B2\n");
 }
+
+TEST_CASE("the last piece of a numbered block with angles alone has its words and no N") {
+  const Program program = read_turning("G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nN40 G1 X50 F600\nN50 A30\nN60 X60\n");
+  MoveEdit edit = edit_of(program, 2);
+  edit.inserted = {{{50, 0, 0}, {}, OrientationNumbers{10, 0, 0}}};
+  edit.end_mm.y() = 0.05;
+  CHECK(rewrite(program, {edit}, {}).text ==
+        "G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nN40 G1 X50 F600\nN50 A10.0000\nY0.050 A30\nN60 X60\n");
+}

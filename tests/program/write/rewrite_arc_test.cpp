@@ -105,6 +105,10 @@ TEST_CASE("chords of an arc without axis words have axis words") {
   const MoveEdit edit{.inserted = {{{-10, 0, 0}}}, .end_mm = {10, 0.5, 0}};
   CHECK(arc_rewritten("g3 i-10. (round)\n", edit) == "g1 x-10.000\ng1 x10.000 y0.500 (round)\n");
   CHECK(arc_rewritten("G3 I-10. F50.\n", edit) == "G1 X-10.000 F50.\nG1 X10.000 Y0.500 F50.\n");
+  CHECK(arc_rewritten("G3 I-5. J0. F50.\nN50 I-10. J0. (round)\n", edit) ==
+        "G3 I-5. J0. F50.\nN50 G1 X-10.000\nX10.000 Y0.500 (round)\n");
+  CHECK(arc_rewritten("G3 I-5. J0. F50.\nN50 I-10. M8\n", edit) ==
+        "G3 I-5. J0. F50.\nN50 G1 X-10.000 M8\nX10.000 Y0.500\n");
 }
 
 TEST_CASE("the full turns of an arc are in its last piece, whichever block that is") {
