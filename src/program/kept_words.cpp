@@ -1,6 +1,7 @@
 #include "counterflex/program/kept_words.hpp"
 
 #include <algorithm>
+#include <cmath>
 #include <optional>
 #include <string_view>
 #include <utility>
@@ -46,6 +47,21 @@ std::size_t feed_name_size(const std::string& words, std::size_t i) {
 }
 
 }  // namespace
+
+double turned_deg(const OrientationNumbers& start, const OrientationNumbers& end) {
+  return std::hypot(end[0] - start[0], end[1] - start[1], end[2] - start[2]);
+}
+
+double turned_deg(const Move& move) {
+  if (!move.orientation || !move.orientation->by_angles) return 0;
+  return turned_deg(move.orientation->start, move.orientation->end);
+}
+
+bool only_turns(const Move& move) {
+  const bool known = all_known(move.known_start) && all_known(move.known_end);
+  return known && move.motion == Motion::feed && !move.arc && move.start_mm == move.end_mm &&
+         turned_deg(move) > short_turn_deg;
+}
 
 std::string kept_words(const Program& program, const Move& move) {
   if (program.dialect == klartext_name) return klartext_kept_words(program, move);

@@ -13,8 +13,8 @@ namespace counterflex {
 
 /// The block without blanks and without the words of a move that are rewritten: N (of a split block the first
 /// piece has it), axes, centre, radius, heights of a cycle, the turns of an arc, G0 to G3 (the move has
-/// the motion), and the F of a G93 move. Of Klartext L, C and the like, DR and polar words are left out only
-/// where the move has the arc or the end that they give.
+/// the motion), and F, if it is known, of a G93 move and of a feed move that gives angles. Of Klartext L, C
+/// and the like, DR and polar words are left out only where the move has the arc or the end that they give.
 ///
 /// Of a robot program: the statement without blanks, comment and the size of a zone, with its targets as they
 /// are in the text, without the numbers that correction changes. The statement of an arc is that of a line,
@@ -44,6 +44,21 @@ class ActingWords {
  private:
   std::string words_;
 };
+
+// The time of a block that only turns the tool. LinuxCNC reads F along X, Y and Z as soon as one of them
+// moves, and in degrees per minute where only A, B and C move. Correction moves X, Y and Z there by little.
+
+/// Shorter turns (deg) may take another time.
+inline constexpr double short_turn_deg = 0.02;
+
+/// By how much A, B and C turn (deg), as F counts it.
+double turned_deg(const OrientationNumbers& start, const OrientationNumbers& end);
+
+/// The same of a move; 0 for moves without such angles.
+double turned_deg(const Move& move);
+
+/// Whether the feed move turns A, B and C by more than `short_turn_deg`, and does not move X, Y and Z.
+bool only_turns(const Move& move);
 
 class JbiPositionWords;
 

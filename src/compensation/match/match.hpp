@@ -72,6 +72,7 @@ class MoveFinder {
   std::size_t count_behind(const MatchedMoves& matched, std::size_t first, std::size_t others,
                            const Vector3& end_mm, double near_mm);
   Vector3 expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const;
+  std::optional<OrientationNumbers> expected_angles(const MatchedMoves& matched) const;
   std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
 
   const Job& job_;

@@ -17,6 +17,7 @@ namespace {
 
 constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
 constexpr double nearer_mm = 1e-9;
+constexpr double same_turn_deg = short_turn_deg / 8;
 
 // The pieces of a robot's statement are copies of it.
 bool are_copies(const CorrectedMove& found) {
@@ -45,19 +46,20 @@ std::size_t most_moves(const Move& original, bool has_segment) {
 
 constexpr double same_time = 1e-3;  // of the time of a block: F is rounded
 
-// Each piece takes as much of the time as it goes of the way.
+// Each piece takes as much of the time as it goes of the way (mm) and turns (deg).
 std::optional<Failure> share_failure(const MatchedMoves& matched) {
-  double length_mm = 0, minutes = 0;
+  const auto share_of = [](const Move& move) { return std::hypot(length(curve_of(move)), turned_deg(move)); };
+  double whole = 0, minutes = 0;
   for (const CorrectedMove& found : matched.found) {
     if (!all_known(found.move->known_start) || !all_known(found.move->known_end)) return std::nullopt;
-    length_mm += length(curve_of(*found.move));
+    whole += share_of(*found.move);
     minutes += 1 / found.move->feed_per_min;
   }
   for (const CorrectedMove& found : matched.found) {
     const Move& move = *found.move;
-    const double of_way = length(curve_of(move)) / length_mm, of_time = 1 / move.feed_per_min / minutes;
-    const double rounding = roundings * rounding_as_read(move) / mm / length_mm;
-    if (length_mm > 0 && std::abs(of_way - of_time) > same_time + rounding)
+    const double of_way = share_of(move) / whole, of_time = 1 / move.feed_per_min / minutes;
+    const double rounding = roundings * rounding_as_read(move) / mm / whole;
+    if (whole > 0 && std::abs(of_way - of_time) > same_time + rounding)
       return matched.failure_at(move.line, fmt::format("this piece goes {:.1f} % of the way of its block in "
                                                        "{:.1f} % of the time",
                                                        100 * of_way, 100 * of_time));
@@ -76,6 +78,36 @@ std::optional<Failure> time_failure(const MatchedMoves& matched) {
   if (same) return std::isfinite(wanted) ? share_failure(matched) : std::nullopt;
   return matched.failure(
       fmt::format("this block takes {:.6g} min here, in the original {:.6g} min", minutes, wanted));
+}
+
+// G94: whether the pieces of a block that only turns the tool have its time, and F behind them is that of the
+// block.
+std::optional<Failure> turn_failure(const MatchedMoves& matched) {
+  const Move& original = matched.original;
+  if (!only_turns(original) || original.feed_mode != FeedMode::length) return std::nullopt;
+  for (const CorrectedMove& found : matched.found) {
+    const Move& move = *found.move;
+    const double turn = turned_deg(move), way_mm = length(curve_of(move));
+    const bool hurries = way_mm > 0 && way_mm / mm_per(move.unit) < turn && turn > short_turn_deg;
+    if (!hurries && move.feed_mm_min == original.feed_mm_min) continue;
+    if (!hurries)
+      return matched.failure_at(move.line, fmt::format("the feed is {:g} deg/min here, in the original {:g}",
+                                                       move.feed_mm_min / mm_per(move.unit),
+                                                       original.feed_mm_min / mm_per(original.unit)));
+    const double minutes = way_mm / move.feed_mm_min,
+                 wanted = turn / (original.feed_mm_min / mm_per(original.unit));
+    if (!(std::abs(minutes - wanted) <= same_time * wanted))
+      return matched.failure_at(
+          move.line,
+          fmt::format("this piece turns the tool by {:.4g} degrees in {:.3g} s, the block that it "
+                      "belongs to does so in {:.3g} s: F is along X, Y and Z as soon as one of them "
+                      "moves",
+                      turn, 60 * minutes, 60 * wanted));
+  }
+  if (matched.last().feed_mm_min == original.feed_mm_min) return std::nullopt;
+  return matched.failure(
+      "the last piece of a block that only turns the tool must have the F of the block, "
+      "which acts in the blocks behind it");
 }
 
 // Of axes, of the centre and the radius of an arc, of the heights of a cycle.
@@ -133,6 +165,15 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
   return original.end_mm + held + *planned_mm - *planned_shift_mm_;
 }
 
+// The angles at the end of a block that only turns the tool; nothing for other blocks.
+std::optional<OrientationNumbers> MoveFinder::expected_angles(const MatchedMoves& matched) const {
+  const Move& original = matched.original;
+  if (!only_turns(original)) return std::nullopt;
+  const bool planned = matched.segment && !plan_.segments[*matched.segment].knots.empty();
+  if (!planned) return original.orientation->end;
+  return turned_words(job_, original, 1, plan_.segments[*matched.segment].knots.back().turn);
+}
+
 // How many more moves from `first` on end there, too, as the plan has it: a jump of the correction may be
 // less than a digit before the end.
 std::size_t MoveFinder::count_behind(const MatchedMoves& matched, std::size_t first, std::size_t others,
@@ -182,6 +223,11 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
     if (turns_rigidly) return way.arc ? way.arc->sweep * length_mm / axis.sweep : 0.0;
     return curve.arc ? angle_about(axis, way) * length_mm / axis.sweep : length(way);
   };
+  // A block that only turns the tool may have several pieces that end at one place.
+  const std::optional<OrientationNumbers> end_angles = expected_angles(matched);
+  const auto off_deg = [&](const Move& move) {
+    return end_angles && move.orientation ? turned_deg(move.orientation->end, *end_angles) : 0;
+  };
   std::size_t best = 0;
   double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;
   for (std::size_t j = 0; j < most; ++j) {
@@ -190,11 +236,13 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
     if (j > 0 && next_number_ && found->move->block_number == next_number_) break;
     gone_mm += way_mm(*found->move);
     if ((!turns_rigidly || found->move->arc) && may_end(original, matched.words, *found, j)) {
-      const double off = (found->move->end_mm - end_mm).norm(), surplus = std::abs(gone_mm - length_mm);
+      const double aside_mm = (found->move->end_mm - end_mm).norm(), turned = off_deg(*found->move),
+                   off = std::hypot(aside_mm, turned), surplus = std::abs(gone_mm - length_mm);
       const double rounding_mm = std::max(rounding_mm_, rounding_as_read(*found->move) / mm);
       // This end is rounded, and the one before, whose shift is expected here: no other end is as near, but
       // for those that are planned within these digits.
-      if (!turns_rigidly && off <= 2 * rounding_mm && surplus <= slack_mm)
+      const bool is_there = aside_mm <= 2 * rounding_mm && turned <= same_turn_deg;
+      if (!turns_rigidly && is_there && surplus <= slack_mm)
         return j + 1 + count_behind(matched, j + 1, others, end_mm, 2 * rounding_mm);
       // The end of a contour's piece is known up to its turn, its angle to the last digits.
       const double miss = turns_rigidly ? surplus + length_share * off : off + length_share * surplus;
@@ -257,7 +305,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     const bool same_text =
         move.feed_mm_min > 0 || feed_word(words).empty() || feed_word(words) == feed_word(wanted);
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
-                           (move.feed_mm_min == original.feed_mm_min && same_text);
+                           only_turns(original) || (move.feed_mm_min == original.feed_mm_min && same_text);
     if (matched.found.size() == 1 && words != wanted)
       return matched.failure_at(move.line,
                                 "the words besides coordinates are not those of the original's block");
@@ -279,6 +327,7 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
   if (own_blocks == 0 || (own_blocks > 1 && !is_plain(wanted)))
     return matched.failure("the words of the original's block are in several blocks here, or in no block");
   if (auto failure = point_failure(job, matched)) return failure;
+  if (auto failure = turn_failure(matched)) return failure;
   return time_failure(matched);
 }
 

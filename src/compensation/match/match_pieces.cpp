@@ -141,6 +141,37 @@ std::vector<Knot> corner_knots(const Job& job, const Plan& plan, std::size_t s) 
   return knots;
 }
 
+// How far a turn has come with the rotation `to`, as a vector: as the control counts it.
+Vector3 turned_to(const Turn& turn, const Turn& to, bool at_end) {
+  if (turn.angles && to.angles)
+    return (at_end ? to.angles->end_deg : to.angles->start_deg) - turn.angles->start_deg;
+  return log_so3(turn.start.transpose() * (at_end ? to.end : to.start));
+}
+
+double way_of_segment(const Job& job, const DraftPiece& draft) {
+  const std::size_t s = draft.piece.segment;
+  return s == no_segment ? 0 : length(job.path.segments[s].wanted);
+}
+
+// The fraction at the end of each piece of a segment that only turns the tool, by its turn: places differ too
+// little. The correction of the turn changes evenly. A jump at the start stays one.
+void project_turn(const Turn& wanted, std::vector<DraftPiece>& drafts) {
+  const Vector3 whole = turned_to(wanted, wanted, true),
+                c0 = turned_to(wanted, *drafts.front().piece.turn, false),
+                c1 = turned_to(wanted, *drafts.back().piece.turn, true) - whole;
+  double last = 0;
+  for (DraftPiece& draft : drafts) {
+    draft.piece.u0 = last;
+    const bool is_jump = draft.settled && draft.piece.u1 == 0;
+    if (!is_jump && &draft != &drafts.back()) {
+      const Vector3 to = turned_to(wanted, *draft.piece.turn, true);
+      const double u = (to - c0).dot(whole) / (whole + c1 - c0).dot(whole);
+      draft.piece.u1 = std::clamp(u, last, inner_end);
+    }
+    last = draft.piece.u1;
+  }
+}
+
 // The correction changes evenly enough from one end of the segment to the other for a first guess. But along
 // a ramp of the force that is shorter than what it deflects the tip along the feed: where its end rounds to
 // an end of a move, within `rounding` (m), this is it.
@@ -219,13 +250,13 @@ bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
   return largest < refined_enough;
 }
 
-// A first piece is one if it is shorter than what rounding may leave of it.
+// A first piece is one if its way is shorter than what rounding may leave of it.
 bool is_jump(const Job& job, const Piece& piece) {
   if (piece.u1 <= piece.u0) return true;
   if (piece.u0 > 0 || piece.u1 == 1) return false;
   const Move& move = job.program.moves[job.path.segments[piece.segment].move];
-  const double way = (piece.u1 - piece.u0) * length(job.path.segments[piece.segment].wanted);
-  return way < rounding_of(job, move);
+  const double whole = length(job.path.segments[piece.segment].wanted);
+  return whole > 0 && (piece.u1 - piece.u0) * whole < rounding_of(job, move);
 }
 
 }  // namespace
@@ -245,8 +276,12 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
   if (drafts.size() > 1) {
     const std::size_t s = *matched.segment;
     find_knots(inner_knots(job, plan, s), rounding_allowance(matched.original, job.options.write), drafts);
-    project(job.path.segments[s].wanted, corner_knots(job, plan, s), rounding_of(job, matched.original),
-            drafts);
+    const Segment& segment = job.path.segments[s];
+    const bool turns = std::ranges::all_of(drafts, [](const DraftPiece& d) { return bool(d.piece.turn); });
+    if (segment.turn && turns && length(segment.wanted) == 0)
+      project_turn(*segment.turn, drafts);
+    else
+      project(segment.wanted, corner_knots(job, plan, s), rounding_of(job, matched.original), drafts);
   }
   for (DraftPiece& draft : drafts) pieces.push_back(std::move(draft));
 }
@@ -254,7 +289,7 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
   std::vector<OpenEnd> open;
   for (std::size_t i = 0; i < drafts.size(); ++i)
-    if (!drafts[i].settled) open.push_back({i});
+    if (!drafts[i].settled && way_of_segment(job, drafts[i]) > 0) open.push_back({i});
   PlaceSolver solver(job);
   for (int k = 0; k < most_refinements && !open.empty(); ++k)
     if (refine(job, solver, open, drafts)) break;

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cassert>
+#include <cmath>
 
 #include "counterflex/program/kept_words.hpp"
 #include "program/text/integer_words.hpp"
+#include "program/text/number_style.hpp"
 #include "program/write/numbers.hpp"
 #include "program/write/words.hpp"
 
@@ -25,14 +27,18 @@ struct Plan {
   std::size_t own = 0;
 };
 
+/// The block's own point of an edit with `stops` points.
+std::size_t own_stop(const Original& o, std::size_t stops) {
+  const bool first = stops > 1 && !o.block.corner && is_first_piece(o.move, kept_words(o.program, o.move));
+  return first ? 0 : stops - 1;
+}
+
 Plan plan(const Original& o, const MoveEdit& edit, int motion) {
   Plan plan;
   if (edit.jump) plan.stops.push_back({*edit.jump, 1});
   for (const Via& via : edit.inserted) plan.stops.push_back({via, motion});
   plan.stops.push_back({{edit.end_mm, edit.centre_mm, edit.orientation}, motion});
-  const bool first =
-      plan.stops.size() > 1 && !o.block.corner && is_first_piece(o.move, kept_words(o.program, o.move));
-  plan.own = first ? 0 : plan.stops.size() - 1;
+  plan.own = own_stop(o, plan.stops.size());
   return plan;
 }
 
@@ -40,7 +46,7 @@ Plan plan(const Original& o, const MoveEdit& edit, int motion) {
 struct PlannedStep {
   Step step;
   bool own;
-  std::optional<double> feed_per_min{};
+  std::optional<PieceFeed> feed{};
 };
 
 /// The steps to write. A point that equals the position in the text gets no block.
@@ -57,14 +63,94 @@ std::vector<PlannedStep> round_steps(const Original& o, const Plan& plan, TextPo
   return steps;
 }
 
-/// G93: the pieces of a block share its time by their lengths.
+/// Digits for which the time of a piece is exact to a millionth.
+int feed_decimals(double feed) {
+  return feed > 0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(feed))), 1, 9) : 1;
+}
+
+double way_mm(const Step& step) {
+  return length(curve_of_step(step));
+}
+
+double step_turn_deg(const Move& move, const Step& step) {
+  if (!move.orientation || !move.orientation->by_angles || !step.before.orientation) return 0;
+  return turned_deg(*step.before.orientation, *step.after.orientation);
+}
+
+/// G93: the pieces of a block share its time by their ways and turns, which both grow evenly in the original.
 void share_time(const Move& move, std::vector<PlannedStep>& steps) {
   if (move.feed_mode != FeedMode::inverse_time || move.feed_per_min <= 0 || steps.size() < 2) return;
+  const auto share_of = [&](const PlannedStep& piece) {
+    return std::hypot(way_mm(piece.step), step_turn_deg(move, piece.step));
+  };
   double whole = 0;
-  for (const PlannedStep& piece : steps) whole += length(curve_of_step(piece.step));
-  for (PlannedStep& piece : steps)
-    if (const double part = length(curve_of_step(piece.step)); part > 0)
-      piece.feed_per_min = move.feed_per_min * whole / part;
+  for (const PlannedStep& piece : steps) whole += share_of(piece);
+  for (PlannedStep& piece : steps) {
+    if (const double part = share_of(piece); part > 0) {
+      const double feed = move.feed_per_min * whole / part;
+      piece.feed = {feed, feed_decimals(feed)};
+    }
+  }
+}
+
+/// Whether the step goes along X, Y or Z, and F along these leaves it less time than its turn takes.
+bool turns_on_the_way(const Move& move, const PlannedStep& piece) {
+  const double way = way_mm(piece.step) / mm_per(move.unit), turn = step_turn_deg(move, piece.step);
+  return way > 0 && way < turn && turn > short_turn_deg;
+}
+
+/// The end of a block that only turns the tool is reached by a turn without a way: there F is that of the
+/// block, and stays it for the blocks behind.
+void add_last_turn(const Original& o, const MoveEdit& edit, const Step& last, Plan& plan) {
+  const OrientationNumbers& start = *last.before.orientation;
+  OrientationNumbers numbers = edit.orientation ? *edit.orientation : o.move.orientation->end;
+  const double share = short_turn_deg / 2 / turned_deg(start, numbers);
+  for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] -= share * (numbers[i] - start[i]);
+  plan.stops.insert(plan.stops.end() - 1, {{edit.end_mm, {}, numbers}, plan.stops.back().motion});
+  plan.own = own_stop(o, plan.stops.size());
+}
+
+[[noreturn]] void refuse_turn(const Original& o) {
+  refuse(o.program.file, o.block, o.block.span.begin,
+         fmt::format(
+             "this block turns the tool by {:.4g} degrees and does not move X, Y and Z. Its correction "
+             "moves them, and then F is the feed along them. Divided blocks that keep the time need G94, "
+             "F as a number in the block or before it, no '/', no exact stop and no code that acts at "
+             "the end. Otherwise program the block under G93 or as a rapid",
+             turned_deg(o.move)));
+}
+
+/// G94: pieces of a block that only turns the tool get the F that keeps their time.
+void keep_time_of_turn(const Original& o, const MoveEdit& edit, const TextPosition& before,
+                       const WriteOptions& options, Plan& plan, std::vector<PlannedStep>& steps) {
+  const auto may_hurry = [&](const PlannedStep& piece) { return turns_on_the_way(o.move, piece); };
+  if (o.move.feed_mode != FeedMode::length || !only_turns(o.move) || std::ranges::none_of(steps, may_hurry))
+    return;
+  const Word* word = find_word(o.block, 'F');
+  const bool knows_feed = o.move.feed_mm_min > 0 && (word == nullptr || word->literal);
+  if (!o.move.may_split || o.move.block_delete || !knows_feed) refuse_turn(o);
+  if (may_hurry(steps.back())) {
+    add_last_turn(o, edit, steps.back().step, plan);
+    steps = round_steps(o, plan, before, options);
+  }
+  const double deg_per_min = o.move.feed_mm_min / mm_per(o.move.unit);
+  constexpr int all_decimals = 9;
+  int decimals = 0;
+  while (decimals < all_decimals && rounded(deg_per_min, decimals) != rounded(deg_per_min, all_decimals))
+    ++decimals;
+  const PieceFeed same{rounded(deg_per_min, decimals), decimals};
+  bool changed = false;  // whether F of the piece before acts
+  for (PlannedStep& piece : steps) {
+    const bool hurries = may_hurry(piece);
+    if (hurries) {
+      const double minutes = step_turn_deg(o.move, piece.step) / deg_per_min,
+                   feed = way_mm(piece.step) / mm_per(o.move.unit) / minutes;
+      piece.feed = {feed, feed_decimals(feed)};
+    } else if (changed && word == nullptr) {
+      piece.feed = same;
+    }
+    changed = hurries;
+  }
 }
 
 bool is_length(const Word& word, const Original& o) {
@@ -144,7 +230,7 @@ std::string text_of(const Original& o, const std::vector<PlannedStep>& steps, co
   bool own_is_written = false;
   for (std::size_t i = 0; i < steps.size(); ++i) {
     const PlannedStep& piece = steps[i];
-    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed_per_min, cycle, call_shift_mm,
+    const BesidesPoint besides{must_state(piece.step.motion, modal), piece.feed, cycle, call_shift_mm,
                                steps.size() > 1 ? std::optional(numbers.of(i)) : std::nullopt};
     if (piece.own) {
       text += own_block(o, piece.step, besides, out);
@@ -208,8 +294,10 @@ void rewrite_block(const Program& program, const ProgramStyle& style, const Move
   if (changes_numbers_only(program, edit, before, cycle, options, state, out)) return;
   const Original o = lex_again(program, move, style);
   ModalMotion modal = modal_motion(o, state.restate_motion);
-  std::vector<PlannedStep> steps = round_steps(o, plan(o, edit, modal.own), before, options);
+  Plan points = plan(o, edit, modal.own);
+  std::vector<PlannedStep> steps = round_steps(o, points, before, options);
   share_time(move, steps);
+  keep_time_of_turn(o, edit, before, options, points, steps);
   const double call_shift_mm = move.called ? height_shift(move, steps.back().step) : 0;
   std::string text = text_of(o, steps, cycle, call_shift_mm, options, modal, out);
   if (move.called && !has_call(move, call_shift_mm, state)) {

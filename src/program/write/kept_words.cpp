@@ -167,7 +167,9 @@ std::string take_arc_word(const Program& program, const Move& move, std::string&
 
 std::string gcode_kept_words(const Program& program, const Move& move) {
   constexpr std::array<std::string_view, 4> names{"F", "N", "P", "TURN="};
-  const std::size_t begin = move.feed_mode == FeedMode::inverse_time ? 0 : 1, end = move.arc ? 4 : 2;
+  const bool angles = move.orientation && move.orientation->by_angles && move.motion == Motion::feed;
+  const bool judges_feed = move.feed_mode == FeedMode::inverse_time || (angles && move.feed_mm_min > 0);
+  const std::size_t begin = judges_feed ? 0 : 1, end = move.arc ? 4 : 2;
   return without_motion(without_rewritten_words(program, move, false),
                         std::span(names).subspan(begin, end - begin));
 }

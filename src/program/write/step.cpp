@@ -142,7 +142,9 @@ Step round_step(const Move& move, const TextPosition& before, const Via& via, in
 
 bool equals_text_position(const Step& step) {
   const auto writes = [](const WordNumber& number) { return number.write; };
-  return !step.arc && step.after == step.before && std::ranges::none_of(step.angles, writes);
+  const auto &start = step.before.orientation, &end = step.after.orientation;
+  const bool turns = start && end && *start != *end;
+  return !step.arc && step.after == step.before && !turns && std::ranges::none_of(step.angles, writes);
 }
 
 bool writes_words(const Step& step) {

@@ -210,14 +210,17 @@ void drop_blanks_of_number(const Original& o, std::string& line) {
   line.erase(begin, end - begin);
 }
 
-/// Digits for which the time of a piece is exact to a millionth.
-int feed_decimals(double feed) {
-  return feed > 0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(feed))), 1, 9) : 1;
+std::string feed_word(const Original& o, const PieceFeed& feed) {
+  return fmt::format("{}{}", letter_of(o, 'F'), inserted_number(feed.value, feed.decimals));
 }
 
-void feed_changes(const Original& o, double feed, Changes& changes) {
-  if (const Word* word = find_word(o.block, 'F'); word != nullptr && word->literal)
-    changes.list.push_back({word->number, changed_number(o.text(word->number), feed, feed_decimals(feed))});
+void feed_changes(const Original& o, const PieceFeed& feed, Changes& changes) {
+  const Word* word = find_word(o.block, 'F');
+  if (word == nullptr)
+    return insert_words(
+        o, {feed_word(o, feed)}, [](const Word& w) { return is_axis(w) || is_angle(w); }, is_centre, changes);
+  if (word->literal && word->value != feed.value)
+    changes.list.push_back({word->number, changed_number(o.text(word->number), feed.value, feed.decimals)});
 }
 
 void check_length(const Original& o, std::string_view line) {
@@ -273,7 +276,7 @@ std::string own_block(const Original& o, const Step& step, const BesidesPoint& b
   if (o.move.orientation) angle_changes(o, step, changes);
   if (step.arc) centre_changes(o, *step.arc, changes);
   if (o.move.arc) drop_arc_words(o, step, changes);
-  if (besides.feed_per_min) feed_changes(o, *besides.feed_per_min, changes);
+  if (besides.feed) feed_changes(o, *besides.feed, changes);
   out.changed_words += changes.changed;
   out.inserted_words += changes.inserted;
   std::string line = applied(o, std::move(changes.list));
@@ -317,12 +320,7 @@ std::string inserted_block(const Original& o, const Step& step, const BesidesPoi
   if (step.arc) append_centre(o, *step.arc, line);
   if (const Word* turns = turns_word(o); step.arc && step.place == Place::end && turns != nullptr)
     append(o, std::string(o.text(turns->span)), line);
-  const bool timed = besides.feed_per_min.has_value();
-  append(o,
-         timed ? fmt::format("{}{}", letter_of(o, 'F'),
-                             inserted_number(*besides.feed_per_min, feed_decimals(*besides.feed_per_min)))
-               : feed_text(o),
-         line);
+  append(o, besides.feed ? feed_word(o, *besides.feed) : feed_text(o), line);
   line = block_delete_text(o) + line + (ends_in_semicolon(o) ? ";" : "");
   check_length(o, line);
   return line;

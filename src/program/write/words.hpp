@@ -8,10 +8,16 @@
 
 namespace counterflex {
 
+/// F of a piece that does not have that of its block.
+struct PieceFeed {
+  double value = 0;
+  int decimals = 0;
+};
+
 /// Other contents of a block than its point.
 struct BesidesPoint {
-  bool state_motion = false;             ///< a block without a motion word gets one
-  std::optional<double> feed_per_min{};  ///< G93: F of this piece
+  bool state_motion = false;  ///< a block without a motion word gets one
+  std::optional<PieceFeed> feed{};
   CycleWords cycle{};
   double call_shift_mm = 0;  ///< shift of the heights of a drilling cycle called by the block
   /// N that replaces the block's own, an empty string: no N; not set: its own.

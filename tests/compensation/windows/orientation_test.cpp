@@ -158,6 +158,80 @@ TEST_CASE("verification finds a tilt, a spin where it is asked for, and an orien
   CHECK(verdict(with_angle(0, 180)));
 }
 
+namespace {
+
+constexpr char turns_in_place[] =
+    "G21 G90 G17 G94\nG0 X0 Y0 Z20 A0 B0 C0\nG1 Z0 F300\nN40 X50\nN50 A30 C10\nN60 X60\nG0 Z40\nM30\n";
+
+double turned_by(const Move& move) {
+  const OrientationNumbers &a = move.orientation->start, &b = move.orientation->end;
+  return std::hypot(b[0] - a[0], b[1] - a[1], b[2] - a[2]);
+}
+
+/// Minutes by the rule of RS274/NGC: F is in mm/min if X, Y or Z moves, else in deg/min.
+double minutes_of(const Move& move) {
+  const double way_mm = (move.end_mm - move.start_mm).norm();
+  return (way_mm > 0 ? way_mm : turned_by(move)) / move.feed_mm_min;
+}
+
+}  // namespace
+
+TEST_CASE("a block that only turns the tool takes the time of the original, evenly") {
+  const Order order = turning_order(turns_in_place);
+  const Shop shop(order);
+  const Compensation result = compensated(shop);
+  const Program written = read_program(result.text, "out.ngc", order.read);
+  const double wanted = std::hypot(30, 10) / 300;
+  double minutes = 0;
+  int pieces = 0;
+  for (const Move& move : written.moves) {
+    if (move.motion != Motion::feed || turned_by(move) < 0.1) continue;
+    CHECK(minutes_of(move) == doctest::Approx(turned_by(move) / 300).epsilon(1e-4));
+    minutes += minutes_of(move);
+    ++pieces;
+  }
+  CHECK(pieces > 1);
+  CHECK(minutes == doctest::Approx(wanted).epsilon(1e-3));
+  CHECK(written.moves[written.moves.size() - 2].feed_mm_min == 300);
+  // Verified from its start to its end.
+  double last = 0, gap = 0;
+  for (const Waypoint& w : result.waypoints) {
+    if (w.line != 5) continue;
+    gap = std::max(gap, w.fraction - last);
+    last = w.fraction;
+  }
+  CHECK(last == 1);
+  CHECK(gap < 0.2);
+}
+
+TEST_CASE("a block that only turns the tool is verified also where other points would be chosen") {
+  const Order order = turning_order(turns_in_place);
+  Shop shop(order);
+  const Program written = read_program(compensated(shop).text, "out.ngc", order.read);
+  for (const double tolerance : {4e-6, 4.5e-6, 6e-6, 20e-6}) {
+    CAPTURE(tolerance);
+    shop.options.tolerance = tolerance;
+    const auto failure = verify(shop.job(), written, false).failure;
+    CHECK((!failure || failure->what.find("the tip misses the path") != std::string::npos));
+  }
+}
+
+TEST_CASE("pieces of a turn that take another time, or leave another F, are found") {
+  const Order order = turning_order(turns_in_place);
+  const Shop shop(order);
+  const std::string text = compensated(shop).text;
+  const auto verdict = [&](const std::string& changed) {
+    const auto failure = verify(shop.job(), read_program(changed, "out.ngc", order.read), false).failure;
+    return failure ? failure->what : "";
+  };
+  CHECK(verdict(text).empty());
+  const std::string no_feeds = std::regex_replace(text, std::regex(" F[0-9.]+\n"), "\n"),
+                    same_feed = replaced(no_feeds, "G1 ", "G1 F300 ");
+  CHECK(verdict(same_feed).find("in 2") != std::string::npos);
+  CHECK(verdict(std::regex_replace(text, std::regex(" F300.\n"), " F301.\n")) != "");
+  CHECK(verdict(std::regex_replace(text, std::regex(" F300.\n"), "\n")) != "");
+}
+
 TEST_CASE("a turn about the tool's axis is judged only where its tolerance is given") {
   // A cutter that stands along Z: C turns it about its own axis.
   const std::string upright = "G21 G90 G94\nG0 X0 Y0 Z20 A0 B0 C0\nG1 Z0 F300\nX50 C30\nM30\n";

@@ -106,5 +106,64 @@ TEST_CASE("the last piece of a numbered block with angles alone has its words an
   edit.inserted = {{{50, 0, 0}, {}, OrientationNumbers{10, 0, 0}}};
   edit.end_mm.y() = 0.05;
   CHECK(rewrite(program, {edit}, {}).text ==
-        "G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nN40 G1 X50 F600\nN50 A10.0000\nY0.050 A30\nN60 X60\n");
+        "G21 G90 G0 X0 Y0 Z0 A0 B0 C0\nN40 G1 X50 F600\nN50 A10.0000\nY0.050 A29.9900 F1.500750\nA30 "
+        "F600.\nN60 X60\n");
+}
+
+namespace {
+
+constexpr char turn_start[] = "G21 G90 G94 G0 X50 Y0 Z0 A0 B0 C0\n";
+
+/// The text behind `turn_start` where its last block is divided after 10 degrees, and ends at `end_mm`.
+std::string divided_turn(const std::string& blocks, const Vector3& inserted_mm, const Vector3& end_mm,
+                         const std::string& first = turn_start) {
+  const Program program = read_turning(first + blocks);
+  MoveEdit edit = edit_of(program, program.moves.size() - 1);
+  if (program.moves.back().may_split) edit.inserted = {{inserted_mm, {}, OrientationNumbers{10, 0, 0}}};
+  edit.end_mm = end_mm;
+  return rewrite(program, {edit}, {}).text.substr(first.size());
+}
+
+}  // namespace
+
+TEST_CASE("pieces of a block that only turns the tool have its time, and the last one its F") {
+  const Vector3 inserted(50.03, 0, 0), end(50.03, 0.04, 0);
+  // 10 degrees in 2 s: 0.03 mm in 2 s. 19.99 degrees in 3.998 s: 0.04 mm in 3.998 s.
+  const std::string pieces = "X50.030 A10.0000 F0.9000000\nY0.040 A29.9900 F0.6003002\n";
+  CHECK(divided_turn("G1 F300\nA30\n", inserted, end) == "G1 F300\n" + pieces + "A30 F300.\n");
+  CHECK(divided_turn("G1 F100\nA30 F300 (slowly)\n", inserted, end) ==
+        "G1 F100\n" + pieces + "A30 F300 (slowly)\n");
+  CHECK(divided_turn("G1 F300\nN5 A30 M8\n", inserted, end) ==
+        "G1 F300\nN5 X50.030 A10. F0.9000000 M8\nY0.040 A29.9900 F0.6003002\nA30.0000 F300.\n");
+  CHECK(divided_turn("G1 F300\nA30 F200 M8\n", {50, 0, 0}, end) ==
+        "G1 F300\nA10. F200 M8\nX50.030 Y0.040 A29.9900 F0.5002501\nA30.0000 F200\n");
+  CHECK(divided_turn("G1 F300\nA30\n", inserted, inserted) ==
+        "G1 F300\nX50.030 A10.0000 F0.9000000\nA30 F300.\n");
+  CHECK(divided_turn("G1 F300\nA30\n", {50, 0, 0}, {50, 0, 0}) == "G1 F300\nA10.0000\nA30\n");
+  // F is in degrees per minute under G20, too: 2 s, and 0.0100 inch.
+  CHECK(divided_turn("G1 F300\nA30\n", {50.8, 0, 0}, {50.8, 0, 0}, "G20 G90 G94 G0 X1.99 Y0 Z0 A0 B0 C0\n") ==
+        "G1 F300\nX2.0000 A10.0000 F0.3000000\nA30 F300.\n");
+}
+
+TEST_CASE("a step of the correction before a block that only turns the tool keeps F") {
+  const Program program = read_turning(std::string(turn_start) + "G1 F300\nA30\n");
+  MoveEdit edit = edit_of(program, 1);
+  edit.inserted = {{{50.5, 0, 0}, {}, OrientationNumbers{0.04, 0, 0}}};
+  edit.end_mm = {50.53, 0, 0};
+  CHECK(rewrite(program, {edit}, {}).text ==
+        std::string(turn_start) + "G1 F300\nX50.500 A0.0400\nX50.530 A29.9900 F0.3005008\nA30 F300.\n");
+}
+
+TEST_CASE("under G93 pieces of a block that only turns the tool share its time by their turns") {
+  CHECK(divided_turn("G93 G1 A30 F2\n", {50.03, 0, 0}, {50.03, 0.04, 0}) ==
+        "G93 G1 X50.030 A10. F5.99999\nG1 Y0.040 A30.0000 F3.000002\n");
+}
+
+TEST_CASE("a block that only turns the tool is refused if its pieces cannot have its time") {
+  const Vector3 inserted(50.03, 0, 0), end(50.03, 0.04, 0);
+  CHECK_THROWS_AS(divided_turn("G1 F300 G61.1\nA30\n", inserted, end), InputError);
+  CHECK_THROWS_AS(divided_turn("G1 F300\n/A30\n", inserted, end), InputError);
+  CHECK_THROWS_AS(divided_turn("G1\nA30\n", inserted, end), InputError);
+  CHECK_THROWS_AS(divided_turn("G95 S1000 M3\nG1 F.3\nA30\n", inserted, end), InputError);
+  CHECK(divided_turn("G1 F300\nG61.1 A0.015\n", inserted, end) == "G1 F300\nG61.1 X50.030 Y0.040 A0.015\n");
 }

@@ -7,6 +7,7 @@
 #include <numbers>
 
 #include "counterflex/geometry/curve.hpp"
+#include "counterflex/program/kept_words.hpp"
 #include "program/expand/expand.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/words/modal_words.hpp"
@@ -77,11 +78,13 @@ void allow_changes(const Reading& r, Move& move) {
   const bool shares_feed = !r.own_feed && (move.feed_mode != FeedMode::inverse_time || move.feed_per_min > 0);
   // Inserted words and blocks are read in the modal state.
   const bool has_own_modes = r.relative() != r.state.relative;
+  // Pieces of a block that only turns the tool get an F per minute.
+  const bool turns_per_revolution = r.state.feed_mode == FeedUnit::per_turn && only_turns(move);
   // The control shortens both blocks of a corner. The corner is in one plane.
   const bool corner = r.corner || r.after_corner;
   move.may_insert_words = move.may_insert_words && !tool_length && !any_axis(move.fixed) && !has_own_modes;
-  move.may_split =
-      feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end && shares_feed;
+  move.may_split = feed && !corner && !rigid && !move.exact_stop && !tool_length && !acts_at_end &&
+                   shares_feed && !turns_per_revolution;
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
   move.stays_whole = rigid || !shares_feed || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW") ||
                      changes_compensation(r.state);
