@@ -14,7 +14,7 @@ std::string range_words(const LeftRange& left) {
 }
 
 std::string untested_words(const LadderStep& step) {
-  if (step.untested.empty()) return "no held-out row shows what the other rows predict; left out";
+  if (step.untested.empty()) return "no held-out row tests this set; it is left out";
   return fmt::format("the rows that show these are not predicted by other rows; they stay: {}",
                      fmt::join(step.untested, ", "));
 }
