@@ -72,6 +72,12 @@ struct Travel {
   std::string name{};  ///< see `actuator_names`; numbers alone for a machine with a tool that bends
 };
 
+/// The positions in an actuator's table of errors of motion (m, rad).
+struct ErrorKnots {
+  int actuator = 0;
+  std::vector<double> rho;
+};
+
 struct Mechanism {
   std::string name;
   std::vector<Series> chains;
@@ -89,8 +95,10 @@ struct Mechanism {
   /// The least distances of positions in tables of errors of motion (m, rad).
   double error_spacing = std::numeric_limits<double>::infinity();
   double error_spacing_angle = std::numeric_limits<double>::infinity();
-  std::optional<Fixture> fixture;  ///< of the part: no solver knows of it, see statics/fixture.hpp
-  double stiffest = 0;             ///< k_max, N/m (rotational stiffness divided by l^2)
+  std::vector<ErrorKnots> error_knots;  ///< of all actuators with tables
+  bool has_knees = false;               ///< of compliances
+  std::optional<Fixture> fixture;       ///< of the part: no solver knows of it, see statics/fixture.hpp
+  double stiffest = 0;                  ///< k_max, N/m (rotational stiffness divided by l^2)
 };
 
 /// The series of `machine`, without home: `prepare` in nominal.hpp also finds the home configuration.
@@ -101,6 +109,12 @@ bool controls(const Mechanism& mechanism, Component component);
 
 /// Whether actuators go straight where the tip does: one chain of slides.
 bool only_slides(const Mechanism& mechanism);
+
+/// Whether the deviation may bend to one side and then to the other between places that are close: with
+/// tables of errors and knees.
+inline bool may_wave(const Mechanism& mechanism) {
+  return mechanism.has_knees || !mechanism.error_knots.empty();
+}
 
 /// Whether weights act, or a zero set at home (against preloads alone, too): only then does Stage::gravity
 /// change anything.

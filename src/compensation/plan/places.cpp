@@ -66,6 +66,33 @@ std::vector<Piece> pieces_of(const Job& job, bool at_places) {
   return pieces;
 }
 
+// The fractions at which an actuator of the nominal machine passes a position of its table of errors. Between
+// two steps it goes evenly, nearly.
+void add_positions_of_tables(const Job& job, PlaceSolver& solver, const Segment& segment,
+                             std::vector<double>& fractions) {
+  const Model& model = model_of(job, segment);
+  if (model.mechanism.error_knots.empty()) return;
+  const int steps = steps_along(job, segment);
+  std::vector<TipPosition> places;
+  for (int k = 0; k <= steps; ++k) {
+    const double u = static_cast<double>(k) / steps;
+    places.push_back({&model, point_at(segment.wanted, u), orientation_at(segment, u)});
+  }
+  const std::vector<NominalResult> nominals = solver.nominals(places);
+  for (std::size_t k = 1; k < nominals.size(); ++k) {
+    if (nominals[k - 1].status != Status::converged || nominals[k].status != Status::converged) continue;
+    const Eigen::VectorXd before = actuator_values(model.mechanism, nominals[k - 1].configuration);
+    Eigen::VectorXd behind = actuator_values(model.mechanism, nominals[k].configuration);
+    behind += full_turns(model.mechanism, behind, before);
+    for (const ErrorKnots& knots : model.mechanism.error_knots) {
+      const double from = before[knots.actuator], to = behind[knots.actuator];
+      for (const double position : knots.rho)
+        if ((position - from) * (position - to) < 0)
+          fractions.push_back((static_cast<double>(k - 1) + (position - from) / (to - from)) / steps);
+    }
+  }
+}
+
 // Whether the force inside a stretch is nowhere larger than at its ends by what reports show.
 bool is_largest_at_ends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
                         ForceCursor& cursor) {
@@ -111,14 +138,17 @@ int steps_along(const Job& job, const Segment& segment) {
   return std::max(static_cast<int>(std::max(by_length, by_angle)), steps_of_tables(job, segment));
 }
 
-void fractions_inside(const Job& job, std::size_t index, int steps, ForceCursor& cursor,
+void fractions_inside(const Job& job, PlaceSolver& solver, std::size_t index, int steps, ForceCursor& cursor,
                       std::vector<double>& fractions) {
   job.forces.breaks(index, cursor, fractions);
+  add_positions_of_tables(job, solver, job.path.segments[index], fractions);
   if (job.directions != nullptr)
     for (const double u : job.directions->inside(job.path.segments[index].move)) fractions.push_back(u);
   for (int k = 1; k < steps; ++k) fractions.push_back(static_cast<double>(k) / steps);
+  std::erase_if(fractions, [](double u) { return u < same_fraction || u > 1 - same_fraction; });
   std::sort(fractions.begin(), fractions.end());
-  fractions.erase(std::unique(fractions.begin(), fractions.end()), fractions.end());
+  const auto same = [](double a, double b) { return b - a < same_fraction; };
+  fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
 }
 
 std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
@@ -156,9 +186,7 @@ void places_along(const Job& job, PlaceSolver& solver, std::size_t index, ForceC
   places.bend.reset();
   if (segment.cutting) {
     const int steps = steps_along(job, segment);
-    fractions_inside(job, index, steps, cursor, fractions);
-    const auto same = [](double a, double b) { return b - a < same_fraction; };
-    fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
+    fractions_inside(job, solver, index, steps, cursor, fractions);
     if (steps == 1 && !fractions.empty())
       places.bend = bend_without_corners(job, solver, index, fractions, cursor);
     if (places.bend) fractions.clear();

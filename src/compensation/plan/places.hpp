@@ -27,10 +27,10 @@ int steps_of_tables(const Job& job, const Segment& segment);
 /// Equal steps along a feed move; a rapid is one.
 int steps_along(const Job& job, const Segment& segment);
 
-/// Sets `fractions` to those inside a segment, increasing: corners of the force, where joints reverse, and
-/// between `steps` equal parts.
-void fractions_inside(const Job& job, std::size_t segment, int steps, ForceCursor& cursor,
-                      std::vector<double>& fractions);
+/// Sets `fractions` to those inside a segment, increasing: corners of the force, where joints reverse, where
+/// they pass positions of their tables of errors, and between `steps` equal parts.
+void fractions_inside(const Job& job, PlaceSolver& solver, std::size_t segment, int steps,
+                      ForceCursor& cursor, std::vector<double>& fractions);
 
 /// A part of a segment between two fractions, and the forces at its ends, between which it may change evenly.
 struct ForceChord {

@@ -39,11 +39,12 @@ struct Requests {
 
 // Where sampling begins again: at corners of the force, where a joint reverses, often enough around an arc
 // and across the positions of tables.
-void find_limits(const Job& job, std::size_t index, ForceCursor& cursor, std::vector<double>& limits) {
+void find_limits(const Job& job, PlaceSolver& solver, std::size_t index, ForceCursor& cursor,
+                 std::vector<double>& limits) {
   const Segment& segment = job.path.segments[index];
   const auto& arc = segment.wanted.arc;
   const int waves = arc ? static_cast<int>(std::ceil(arc->sweep / sampled_angle)) : 1;
-  fractions_inside(job, index, std::max(waves, steps_of_tables(job, segment)), cursor, limits);
+  fractions_inside(job, solver, index, std::max(waves, steps_of_tables(job, segment)), cursor, limits);
 }
 
 // Whether the bound of its cell lets a line go straight between its ends.
@@ -67,16 +68,17 @@ void ask_group(Requests& requests, PlanTask& task, bool cutting) {
 void ask_inside(const Job& job, Requests& requests, PlanTask& task, const Vector6& F1) {
   Corrections& corrections = requests.corrections;
   const Segment& segment = job.path.segments[task.segment];
-  const bool may_wave = segment.wanted.arc.has_value() || steps_of_tables(job, segment) > 1;
+  const bool waves = segment.wanted.arc.has_value() || may_wave(model_of(job, segment).mechanism) ||
+                     steps_of_tables(job, segment) > 1;
   double u0 = 0;
   Answer a = task.start;
   for (const double u : task.limits) {
     const Vector6 F = corrections.force_at(task.segment, u, Side::before);
-    requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, u, F, may_wave));
+    requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, u, F, waves));
     a = corrections.ask(task.segment, u, Side::after);
     u0 = u;
   }
-  requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, 1, F1, may_wave));
+  requests.intervals.push_back(open_interval(corrections, task.segment, u0, a, 1, F1, waves));
   task.end = requests.intervals.back().at[4];
 }
 
@@ -109,7 +111,7 @@ void ask_segment(const Job& job, Requests& requests, std::size_t index, PlannedS
       return plan_as_programmed(job, segment, task.fade.programmed, planned);
     if (segment.cutting || job.options.blend == 0 || segment.wanted.arc)
       task.start = corrections.ask(index, 0, Side::after);
-    if (segment.cutting) find_limits(job, index, corrections.cursor(), task.limits);
+    if (segment.cutting) find_limits(job, corrections.solver(), index, corrections.cursor(), task.limits);
     const Vector6 F1 = corrections.force_at(index, 1, Side::before);
     task.is_sampled = segment.cutting && !bends_little(job, requests, task, F1);
     if (task.is_sampled)

@@ -247,7 +247,9 @@ void sample_closer(Slice& slice) {
     // All of it above the tolerance is compared with bands, which change slowly.
     const bool is_far =
         most <= near_share * tolerance || (slice.job.options.only_significant && least > tolerance);
-    const bool is_safe = is_far && (m - (a + b) / 2).norm() <= small_share * tolerance;
+    // What bends to one side and then to the other crosses the middle of its chord.
+    const bool waves = may_wave(slice.pieces[stretch.piece].model->mechanism);
+    const bool is_safe = is_far && !waves && (m - (a + b) / 2).norm() <= small_share * tolerance;
     for (int k = 0; k < eighths && !is_safe; ++k) {
       const double share = (2 * k + 1) / (2.0 * eighths);
       add_inside(slice, stretch.piece, stretch.v0 + share * (stretch.v1 - stretch.v0));

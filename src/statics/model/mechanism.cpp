@@ -117,8 +117,10 @@ std::vector<double> reversals(const Machine& machine) {
   return any ? all : std::vector<double>{};
 }
 
-void note_spacing(const Series& series, Mechanism& mechanism) {
+void note_bends(const Series& series, Mechanism& mechanism) {
   for (const Part& part : series.parts) {
+    mechanism.has_knees = mechanism.has_knees || part.k_change != 0;
+    if (!part.errors.rho.empty()) mechanism.error_knots.push_back({part.actuator, part.errors.rho});
     double& least =
         part.joint.kind == JointKind::prismatic ? mechanism.error_spacing : mechanism.error_spacing_angle;
     for (std::size_t k = 1; k < part.errors.rho.size(); ++k)
@@ -146,7 +148,7 @@ Mechanism compile(const Machine& machine) {
   Numbering numbering{0, mechanism.travel};
   for (const Chain& chain : machine.chains)
     mechanism.chains.push_back(compile_series(chain, weighs, false, numbering));
-  for_each_series(mechanism.chains, [&](const Series& series) { note_spacing(series, mechanism); });
+  for_each_series(mechanism.chains, [&](const Series& series) { note_bends(series, mechanism); });
   const std::vector<std::string> names = actuator_names(machine);
   for (std::size_t i = 0; i < names.size(); ++i) mechanism.travel[i].name = names[i];
   return mechanism;
