@@ -131,6 +131,65 @@ TEST_CASE("with given tool lengths the remark is about a tool without a length")
   CHECK(program.remarks[0].what.starts_with("G43: the length of T7 is not known"));
 }
 
+namespace {
+
+std::vector<Remark> remarks_with_lengths(const std::string& text, const std::string& dialect = "linuxcnc") {
+  ReadOptions options;
+  options.dialect = dialect;
+  options.tool_lengths_mm = {{1, 80.0}, {2, 120.0}, {12, 120.0}};
+  return read_program(text, "p.ngc", options).remarks;
+}
+
+}  // namespace
+
+TEST_CASE("the length of another offset than that of the tool in the spindle is a warning") {
+  const std::string cut = "G0 X0 Y0 Z9\nG1 Z0 F100\nX5\nX6\n";
+  const auto other = remarks_with_lengths("G21 T2 M6\nG43 H1\n" + cut);
+  REQUIRE(other.size() == 1);
+  CHECK(other[0].line == 2);
+  CHECK(
+      other[0].what ==
+      "H1 (80 mm) acts while T2 (120 mm) is in the spindle; the tip of T2 is used: see that offset 1 of the "
+      "control holds the length of T2, or program H2");
+  const auto unlisted = remarks_with_lengths("G21 T3 M6\nG0 G43 H23 Z9.\n" + cut, "fanuc");
+  REQUIRE(unlisted.size() == 1);
+  CHECK(
+      unlisted[0].what.starts_with("H23 (length not known) acts while T3 (length not known) is in the "
+                                   "spindle; the tip of [tool] is used"));
+  CHECK(remarks_with_lengths("G21 T2 M6\nG43 H12\n" + cut).empty());
+  CHECK(remarks_with_lengths("G21 T2 M6\nG43 H2\n" + cut).empty());
+  CHECK(remarks_with_lengths("G21 T2 M6\nG43\n" + cut).empty());
+  CHECK(remarks_with_lengths("G21 T2 M6\nG49\n" + cut).empty());
+}
+
+TEST_CASE("the length of the tool before is a warning where the next tool cuts") {
+  const std::string first = "G21 T1 M6\nG43 H1\nG0 X0 Y0 Z9\nG1 Z0 F100\nG0 Z9\n";
+  const auto kept = remarks_with_lengths(first + "T2 M6\nG0 X1\nG1 Z0\n");
+  REQUIRE(kept.size() == 1);
+  CHECK(kept[0].line == 8);
+  CHECK(kept[0].what.starts_with("H1 (80 mm) acts while T2 (120 mm) is in the spindle"));
+  CHECK(remarks_with_lengths(first + "T2 M6\nG0 X1\nG43 H2\nG1 Z0\n").empty());
+  CHECK(remarks_with_lengths(first + "G53 G0 Z0\nT2 M6\nG1 X9\nG0 G43 H2 Z9\nG1 Z0\n").empty());
+  CHECK(remarks_with_lengths(first + "T2\nG43 H2\nM6\nG1 Z0\n").empty());
+}
+
+TEST_CASE("a remark about an unknown length names the tip that is used") {
+  const auto remark = [](const std::string& length) {
+    const auto remarks = remarks_with_lengths("G21 T2 M6\n" + length + "\nG0 X0 Y0 Z9\nG1 Z0 F100\n");
+    return remarks.size() == 1 ? remarks[0].what : "";
+  };
+  CHECK(remark("G43.1 Z118") == "G43.1: the length that it sets is not followed; the tip of T2 is used");
+  CHECK(remark("G43.2 H3") == "G43.2: the length that it sets is not followed; the tip of T2 is used");
+  CHECK(remark("G43 H0") == "G43: the length under H0 is not known; the tip of T2 is used");
+  CHECK(remark("G43 H#1") == "G43: the value of H is not known; the tip of T2 is used");
+}
+
+TEST_CASE("H that is not a whole number from 0 on is refused") {
+  for (const std::string h : {"H-1", "H2.5"})
+    CHECK(diagnostic_of([&] { read("G21 T2 M6\nG43 " + h + "\n"); }) ==
+          "p.ngc:2:5: error: " + h + " is not the number of a tool offset; use a whole number from 0 on");
+}
+
 TEST_CASE("after G80 fanuc and haas return to G0, linuxcnc and grbl need a motion word") {
   const std::string text = "G21 G1 X1. F100\nG80\nX2.\n";
   CHECK(read(text, "fanuc").moves[1].motion == Motion::rapid);

@@ -231,6 +231,12 @@ void apply_work_offset(const Block& block, Reading& r) {
 
 namespace {
 
+void refuse_other_number(const Block& block, const Reading& r, const Word& h) {
+  if (h.value >= 0 && h.value == std::floor(h.value)) return;
+  refuse_word(block, r, h,
+              fmt::format("H{} is not the number of a tool offset; use a whole number from 0 on", h.value));
+}
+
 bool changes_tool_length(const Reading& r) {
   if (r.sorted.has(Action::tool_length) || r.sorted.has(Action::no_tool_length)) return true;
   const bool is_argument =
@@ -255,6 +261,7 @@ void apply_tool_length(const Block& block, Reading& r) {
   else if (!on && is_number)
     number = h->value;
   const bool plain = on && (found->code->tenths == 430 || found->code->tenths == 440);
+  if (plain && is_number) refuse_other_number(block, r, *h);
   if (plain) find_length(r, number, length_mm);
   if (length_mm && plain && found->code->tenths == 440) *length_mm = -*length_mm;
   // Shop controls add relative Z to the programmed position, independent of the length.
@@ -274,6 +281,9 @@ void apply_tool_length(const Block& block, Reading& r) {
   state.tool_length = number;
   state.tool_length_mm = length_mm;
   if (!length_mm) remark_tool_length(block, r);
+  const bool is_of_next_tool =
+      number && r.state.tool_chosen && *number == static_cast<double>(*r.state.tool_chosen);
+  if (on && !is_of_next_tool) remark_other_length(block.line, r);
 }
 
 void watch_other_axes(const Block& block, Reading& r) {

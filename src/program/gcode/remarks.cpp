@@ -3,6 +3,8 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
+#include <cstdint>
 
 #include "program/text/line_length.hpp"
 #include "program/text/scanner.hpp"
@@ -65,6 +67,17 @@ std::string_view kept_behind_calls(std::string_view dialect) {
          "its length, G40 to G42 and G93 to G97";
 }
 
+std::optional<double> known_length(const Reading& reading, long tool) {
+  const auto found = reading.options.tool_lengths_mm.find(tool);
+  if (found == reading.options.tool_lengths_mm.end()) return std::nullopt;
+  return found->second;
+}
+
+/// The tip at which moves with this tool are computed.
+std::string tip_of(const Reading& reading, long tool) {
+  return known_length(reading, tool) ? fmt::format("the tip of T{}", tool) : "the tip of [tool]";
+}
+
 }  // namespace
 
 void assume_of_calls(Program& program, int line) {
@@ -107,18 +120,51 @@ void remark_tool_length(const Block& block, Reading& reading) {
   const FoundG* length = reading.sorted.find(Action::tool_length);
   if (length == nullptr) return;
   const Word* h = reading.sorted.word('H');
-  const long tool = h != nullptr && h->literal ? static_cast<long>(h->value) : reading.state.tool;
   const std::string code = fmt::format("G{}", length->word->value);
-  if (tool <= 0)
-    return add_remark(reading.program, block.line,
-                      code + ": the tool and its length are not known; the tip of [tool] is used");
+  const auto remark = [&](std::string_view what) {
+    add_remark(reading.program, block.line, fmt::format("{}: {}", code, what));
+  };
+  const long in_spindle = reading.state.tool;
+  if (length->code->tenths == 431 || length->code->tenths == 432)
+    return remark(
+        fmt::format("the length that it sets is not followed; {} is used", tip_of(reading, in_spindle)));
+  const long tool = h != nullptr && h->literal ? static_cast<long>(h->value) : in_spindle;
+  if (tool <= 0 && in_spindle > 0)
+    return remark(fmt::format("the length under H0 is not known; {} is used", tip_of(reading, in_spindle)));
+  if (tool <= 0) return remark("the tool and its length are not known; the tip of [tool] is used");
   if (reading.lengths_set)
-    return add_remark(reading.program, block.line,
-                      fmt::format("{}: a variable or G10 before may have set the length of T{}", code, tool));
-  add_remark(reading.program, block.line,
-             fmt::format("{}: the length of T{} is not known; the tip of [tool] is used (give length_mm in "
-                         "[tools.T{}], --tool-table, or --tool-length T{}=MM)",
-                         code, tool, tool, tool));
+    return remark(fmt::format("a variable or G10 before may have set the length of T{}", tool));
+  if (is_other_length(reading)) return;
+  if (known_length(reading, tool))
+    return remark(fmt::format("the value of H is not known; {} is used", tip_of(reading, tool)));
+  remark(
+      fmt::format("the length of T{} is not known; the tip of [tool] is used (give length_mm in "
+                  "[tools.T{}], --tool-table, or --tool-length T{}=MM)",
+                  tool, tool, tool));
+}
+
+bool is_other_length(const Reading& reading) {
+  const ModalState& state = reading.state;
+  const double h = state.tool_length.value_or(0);
+  if (state.tool <= 0 || h == 0 || std::abs(h) > INT32_MAX || reading.dialect.sinumerik_words) return false;
+  const long number = static_cast<long>(h);
+  if (number == state.tool || reading.lengths_set) return false;
+  const auto of_number = known_length(reading, number);
+  return !of_number || of_number != known_length(reading, state.tool);
+}
+
+void remark_other_length(int line, Reading& reading) {
+  if (!is_other_length(reading)) return;
+  const long number = static_cast<long>(*reading.state.tool_length), tool = reading.state.tool;
+  const auto in_words = [&](long of) {
+    const auto length = known_length(reading, of);
+    return length ? fmt::format("{:.6g} mm", *length) : std::string("length not known");
+  };
+  add_remark(
+      reading.program, line,
+      fmt::format("H{} ({}) acts while T{} ({}) is in the spindle; {} is used: see that offset {} of "
+                  "the control holds the length of T{}, or program H{}",
+                  number, in_words(number), tool, in_words(tool), tip_of(reading, tool), number, tool, tool));
 }
 
 void remark_named_tool(const Block& block, Reading& reading) {

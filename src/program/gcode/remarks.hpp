@@ -37,6 +37,13 @@ void remark_path_mode(const Block& block, Reading& reading);
 /// The tool length of a G43 or G44 is unknown.
 void remark_tool_length(const Block& block, Reading& reading);
 
+/// Whether the active H is another number than the tool in the spindle, and its length is not known to be the
+/// same.
+bool is_other_length(const Reading& reading);
+
+/// A warning in `line` if that is so.
+void remark_other_length(int line, Reading& reading);
+
 /// The tool of T has no number.
 void remark_named_tool(const Block& block, Reading& reading);
 
