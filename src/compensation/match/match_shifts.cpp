@@ -81,8 +81,16 @@ void forget_lost_axes(const Job& job, std::size_t m, CarriedShifts& carried) {
     if (lost[axis] || moved_frame || move.fixed[axis]) carried.axes_mm[axis].reset();
 }
 
+// Also an inserted one.
+bool has_absolute_word(const MatchedMoves& matched, std::size_t axis) {
+  return !matched.original.relative && !matched.last().relative &&
+         std::any_of(matched.found.begin(), matched.found.end(),
+                     [axis](const CorrectedMove& found) { return bool(found.move->words[axis]); });
+}
+
 // After a word of an axis has been shifted, no word of it is unshifted until the axis has gone to a
-// position of the machine. Where the deviation is judged a correction may be nothing.
+// position of the machine. Where the deviation is judged a correction may be nothing, and an inserted word
+// counts, too.
 std::optional<Failure> axis_failure(const Job& job, std::size_t m, const MatchedMoves& matched,
                                     CarriedShifts& carried) {
   constexpr double unshifted_mm = 1e-9;
@@ -91,10 +99,12 @@ std::optional<Failure> axis_failure(const Job& job, std::size_t m, const Matched
   const bool judged = all_known(original.known_end) &&
                       (original.handling == Handling::own || original.handling == Handling::group);
   for (std::size_t axis = 0; axis < 3; ++axis) {
-    if (!original.words[axis] || !found.words[axis] || original.relative || found.relative) continue;
+    if (!has_absolute_word(matched, axis)) continue;
+    const bool in_both = original.words[axis] && found.words[axis];
+    if (!in_both && !(judged && found.known_end[axis])) continue;
     const double shift = found.end_mm[axis] - original.end_mm[axis],
                  before = carried.axes_mm[axis].value_or(0);
-    if (!judged && std::abs(shift) < unshifted_mm && std::abs(before) > job.options.tolerance / mm)
+    if (in_both && !judged && std::abs(shift) < unshifted_mm && std::abs(before) > job.options.tolerance / mm)
       return matched.failure(
           fmt::format("{} is the same as in the original, but the moves before it are shifted by {:.4f} mm",
                       "XYZ"[axis], before));

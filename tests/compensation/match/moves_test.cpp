@@ -1,7 +1,7 @@
 // Moves that are not long cuts: rapids, first moves, moves that go nowhere.
 #include <fmt/format.h>
 
-#include "compensation/support/judge.hpp"
+#include "compensation/support/gantry.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -129,4 +129,18 @@ TEST_CASE("after a machine position the axes are known again only when they are 
     CHECK((cold_tip(shop, moves[m].end_mm * mm, Vector6::Zero()) - Vector3(50, 50, 20) * mm).norm() < 1e-6);
   }
   CHECK(lines[3] != "G0 X50. Y50.");
+}
+
+TEST_CASE("words behind a machine position are unshifted where an inserted word has ended the shift") {
+  for (const std::string to_machine : {"G53 G0 Z0\n", "G91 G28 Z0\nG90\n"}) {
+    CAPTURE(to_machine);
+    const Shop shop(
+        {.machine = yielding_gantry(),
+         .text = "G21 G90 G17\nG0 X0 Y0 Z50\nG1 Z0 F200\nX40\nG0 Z50\n" + to_machine + "G0 X0 Y0\nZ50\nM2\n",
+         .force = constant_force(milling())});
+    const Compensation result = compensated(shop);
+    CHECK(!result.failure);
+    if (result.failure) MESSAGE(result.failure->what);
+    CHECK(result.text.find("\nG0 X0 Y0\nZ50\n") != std::string::npos);
+  }
 }
