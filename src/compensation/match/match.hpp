@@ -42,6 +42,7 @@ struct MatchedMoves {
   std::optional<std::size_t> segment;
   std::span<const CorrectedMove> found;  ///< the last one holds the block of the original, or its last piece
   std::string words;                     ///< of the original, as CorrectedMove::words
+  double start_rounding = 0;             ///< of the move before, as read (m); 0 for the first of a window
 
   const Move& first() const { return *found.front().move; }
   const Move& last() const { return *found.back().move; }

@@ -258,7 +258,8 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
 MatchedMoves MoveFinder::find(std::size_t m, std::optional<std::size_t> segment,
                               const PlaceAmongLines& place) {
   const Move& original = job_.program.moves[m];
-  MatchedMoves matched{original, segment, {}, kept_words(job_.program, original) + place.acting};
+  MatchedMoves matched{
+      original, segment, {}, kept_words(job_.program, original) + place.acting, rounding_mm_ * mm};
   const CorrectedMove* first = found_.at(0);
   if (first == nullptr || first->others != place.others) return matched;
   if (!shift_mm_ && all_known(original.known_start) && all_known(first->move->known_start))

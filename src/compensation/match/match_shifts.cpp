@@ -120,7 +120,9 @@ std::optional<Failure> contour_failure(const Job& job, std::size_t m, const Matc
   if (!inside || !all_known(original.known_start) || !all_known(original.known_end) ||
       !all_known(first.known_start))
     return std::nullopt;
-  const double rounding_mm = roundings * std::max(rounding_as_read(original), rounding_as_read(found)) / mm;
+  const double rounding_mm =
+      roundings * std::max({rounding_as_read(original), rounding_as_read(found), matched.start_rounding}) /
+      mm;
   const double off = (found.end_mm - first.start_mm).head<2>().norm() -
                      (original.end_mm - original.start_mm).head<2>().norm();
   if (std::abs(off) <= rounding_mm + 1e-6) return std::nullopt;

@@ -207,3 +207,13 @@ TEST_CASE("a contour in another plane than X Y has one shift in X, Y and Z, with
     CHECK(result.left_alone.at(0).why.find("Z block by block") == std::string::npos);
   }
 }
+
+TEST_CASE("a move of a turned contour has the digits of both of its ends") {
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 0, 1.964e-3),
+                   .text = "G21 G90 G17\nG0 X100 Y0 Z1\nG1 Z0 F200\nG41 D1 X70 Y10 F600\nX60.0000 Y0.0000 "
+                           "Z0.0000\nX30.0000 Y51.9615\nX-30.0000 Y51.9615\nX-60.0000 Y0.0000\n"
+                           "X-30.0000 Y-51.9615\nX30.0000 Y-51.9615\nX60.0000 Y0.0000\nG40 X80 Y0\nM2\n"});
+  const Compensation result = compensated(shop);
+  CHECK(!result.failure);
+  if (result.failure) MESSAGE(result.failure->what);
+}
