@@ -129,6 +129,14 @@ TEST_CASE("a position at which a modal macro is called counts as a move of unkno
   CHECK(moves.unknown_length == 2);
 }
 
+TEST_CASE("the noise of the arithmetic does not decide whether a miss is within the tolerance") {
+  Reading run("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F100\nX20\n");
+  run.solve(1, 3, 0.005 * (1 + 1e-9));
+  CHECK(run.tally.moves().missed == 0);
+  run.solve(2, 4, 0.005 * (1 + 1e-5));
+  CHECK(run.tally.moves().missed == 1);
+}
+
 TEST_CASE("a move that misses the tolerance at one place counts once, and as missed") {
   Reading run("G21 G90 G54 G0 X0 Y0 Z0\nG1 X10 F100\nX30\nX60\n");
   for (const double miss_mm : {0.001, 0.006, 0.007}) run.solve(0, 2, miss_mm);

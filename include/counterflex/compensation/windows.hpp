@@ -49,6 +49,9 @@ std::optional<Failure> decimals_failure(const Program& program, const Toolpath& 
 /// The controlled part of a waypoint's `after`: what the tolerance applies to (m).
 double position_miss(const Job& job, const Waypoint& w);
 
+/// Whether a miss (m) is within the tolerance of position, up to the noise of the arithmetic.
+bool is_within_tolerance(const CompensationOptions& options, double miss);
+
 /// The larger of the shares that a deviation (m, rad; axes of M) has in the tolerances of position, and of
 /// tilt and spin where the orientation `R_MT` is given.
 double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,

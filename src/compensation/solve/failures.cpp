@@ -178,6 +178,11 @@ double position_miss(const Job& job, const Waypoint& w) {
   return controlled_position(job.model.mechanism, w.after);
 }
 
+bool is_within_tolerance(const CompensationOptions& options, double miss) {
+  constexpr double noise = 1e-6;  // relative: less than the digits that are shown
+  return miss <= (1 + noise) * options.tolerance;
+}
+
 double share_of_tolerance(const CompensationOptions& options, const Mechanism& mechanism,
                           const BoxedOptional<Matrix3>& R_MT, const Vector6& deviation) {
   double share = controlled_position(mechanism, deviation) / options.tolerance;
@@ -209,7 +214,7 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     const double miss = position_miss(job, w);
     if (w.exempt || w.insignificant) continue;
     if (auto failure = turn_failure(job, w)) return failure;
-    if (miss <= job.options.tolerance) continue;
+    if (is_within_tolerance(job.options, miss)) continue;
     return Failure{
         ErrorKind::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {} mm at {:.1f} % of this move, the "

@@ -51,7 +51,7 @@ void FeedTally::add_measured(bool is_within) {
 
 void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
   if (w.status != Status::converged) return;
-  const bool is_within = miss <= window.options.tolerance || w.insignificant;
+  const bool is_within = is_within_tolerance(window.options, miss) || w.insignificant;
   const bool hole = is_place_of_cycle(window.program, w);
   if (!w.cutting && !hole) {
     const bool feed = w.segment == no_segment && window.program.moves[w.move].motion == Motion::feed;

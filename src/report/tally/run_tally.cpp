@@ -72,7 +72,7 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     const double miss = position_miss(window, w);
     feed_.add(w, miss, window);
     if (window.options.only_significant) add_as_programmed(w, tool_cuts_at(window.program, w));
-    add(w, operation, facts, miss <= window.options.tolerance);
+    add(w, operation, facts, is_within_tolerance(window.options, miss));
     if (w.status == Status::converged) add_to_travel(w, window, fraction_before(before, w));
     before = &w;
   }
@@ -99,7 +99,7 @@ void RunTally::list_corners(const std::vector<Waypoint>& waypoints, const Job& w
     double worst = 0;
     for (; w != waypoints.end() && w->move == move; ++w)
       if (w->in_corner && !w->insignificant) worst = std::max(worst, position_miss(window, *w));
-    if (worst <= window.options.tolerance) continue;
+    if (is_within_tolerance(window.options, worst)) continue;
     const Move& before = window.program.moves[move];
     list(left_alone_, LeftAlone{before.line, words_of_corner(before.corners->end_size, worst)});
   }
