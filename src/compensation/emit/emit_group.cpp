@@ -5,7 +5,9 @@
 #include <cmath>
 
 #include "compensation/emit/emitter.hpp"
+#include "compensation/shift/commands.hpp"
 #include "compensation/tuning.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/geometry/types.hpp"
 
@@ -38,6 +40,17 @@ Vector3 choose_shift(const std::vector<GroupSample>& samples, GroupMotion& motio
   }
   motion.shift = (low + high) / 2;
   return (high - low) / 2;
+}
+
+// The largest distance that the motion leaves (mm); in the plane alone where Z is corrected block by block.
+double largest_left(const std::vector<GroupSample>& samples, const GroupMotion& motion, bool in_xy) {
+  double largest = 0;
+  for (const GroupSample& sample : samples) {
+    Vector3 left = sample.shift - motion.shift_at(sample.p);
+    if (in_xy) left.z() = 0;
+    largest = std::max(largest, left.norm());
+  }
+  return largest;
 }
 
 // Turns by the least squares of what is left, about the middle of the samples.
@@ -120,11 +133,55 @@ Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
          turned(turns ? group_motion_->turn : 0, move.arc->centre_mm - move.end_mm);
 }
 
+// The contour is corrected and judged where it is programmed. The tool's centre is beside it, by a radius
+// that the control knows, where the correction is another one. By how much it changes there beyond the motion
+// of the group, for the segments `begin` to `end`; empty if that is little for each usual radius.
+std::string Emitter::words_beside(std::size_t begin, std::size_t end) {
+  constexpr double beside_mm = 10, most_radius_mm = 50;
+  std::vector<TargetRequest> requests;
+  std::vector<std::pair<std::size_t, const CurveNode*>> places;
+  ForceCursor cursor;
+  for (std::size_t s = begin; s < end; ++s) {
+    const Segment& segment = job_.path.segments[s];
+    const std::vector<CurveNode>& nodes = plan_.segments[s].group;
+    const bool is_beside = job_.program.moves[segment.move].cutter_side != CutterSide::none;
+    if (!segment.cutting || !is_beside || nodes.empty()) continue;
+    for (const CurveNode* node : {&nodes.front(), &nodes[nodes.size() / 2], &nodes.back()}) {
+      const Side side = node == &nodes.back() ? Side::before : Side::after;
+      const Vector3 p =
+          point_at(segment.wanted, node->u) + beside_mm * mm * away_from_contour(job_, s, node->u);
+      requests.push_back({&model_of(job_, segment), p, job_.forces.at(s, node->u, side, cursor),
+                          orientation_at(segment, node->u),
+                          directions_at(job_, segment.move, node->u, side)});
+      places.push_back({s, node});
+    }
+  }
+  std::vector<TargetAnswer> answers(requests.size());
+  solver_.targets(requests, answers, StopAt::end);
+  double largest_mm = 0;
+  for (std::size_t i = 0; i < places.size(); ++i) {
+    const auto& [s, node] = places[i];
+    const Move& move = job_.program.moves[job_.path.segments[s].move];
+    if (answers[i].status != Status::converged) continue;
+    const Vector3 away_W = frame(move).X_MW.R.transpose() * away_from_contour(job_, s, node->u);
+    const Vector3 change =
+        shift_mm(move, answers[i].target - requests[i].p_MT) - shift_mm(move, shift_of(node->c));
+    largest_mm = std::max(largest_mm, (change - turned(group_motion_->turn, beside_mm * away_W)).norm());
+  }
+  if (largest_mm * most_radius_mm / beside_mm * mm <= job_.options.tolerance) return {};
+  return fmt::format(
+      "; with the tool's radius in D the tool's centre misses by up to {:.4f} mm more for each {:g} mm of "
+      "the radius",
+      largest_mm, beside_mm);
+}
+
 // One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the
 // group has a known start and end. What it leaves is listed.
 bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   const Move& first = job_.program.moves[m];
-  std::vector<GroupSample> cuts, others;  // samples beside the contour count only without a cut
+  const std::size_t first_segment = s;
+  // Samples beside the contour count for the motion only without a cut.
+  std::vector<GroupSample> cuts, others, feeds;
   int last_line = first.line;
   for (; s < job_.path.segments.size(); ++s) {
     const Segment& segment = job_.path.segments[s];
@@ -132,10 +189,12 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
     if (move.group != first.group) break;
     last_line = move.line;
     std::vector<GroupSample>& samples = segment.cutting && is_in_plane(move) ? cuts : others;
-    for (const CurveNode& node : plan_.segments[s].group)
+    for (const CurveNode& node : plan_.segments[s].group) {
       samples.push_back(
           {in_words_mm(job_, move, original_command(job_, segment.frame, point_at(segment.wanted, node.u))),
            shift_mm(move, shift_of(node.c))});
+      if (segment.cutting) feeds.push_back(samples.back());
+    }
   }
   group_motion_.reset();
   const std::vector<GroupSample>& samples = cuts.empty() ? others : cuts;
@@ -150,16 +209,19 @@ bool Emitter::find_group_motion(std::size_t m, std::size_t s) {
   group_motion_ = motion;
   const Vector3& shift = motion.shift;
   if (group_in_xy_) residual.z() = 0;
-  std::string said = group_in_xy_
-                         ? fmt::format("({:.4f}, {:.4f}) mm in X and Y", shift.x(), shift.y())
-                         : fmt::format("({:.4f}, {:.4f}, {:.4f}) mm", shift.x(), shift.y(), shift.z());
+  const auto mm4 = [](double length_mm) { return format_fixed(length_mm, 4); };
+  std::string motion_words =
+      group_in_xy_ ? fmt::format("({}, {}) mm in X and Y", mm4(shift.x()), mm4(shift.y()))
+                   : fmt::format("({}, {}, {}) mm", mm4(shift.x()), mm4(shift.y()), mm4(shift.z()));
   if (motion.turn != 0)
-    said += fmt::format(" and one turn by {:.4f} deg about X{:.3f} Y{:.3f}", motion.turn / deg,
-                        motion.about.x(), motion.about.y());
-  said += group_in_xy_ ? " for all, Z block by block" : " for all";
+    motion_words += fmt::format(" and one turn by {:.4f} deg about X{} Y{}", motion.turn / deg,
+                                format_fixed(motion.about.x(), 3), format_fixed(motion.about.y(), 3));
+  motion_words += group_in_xy_ ? " for all, Z block by block" : " for all";
   list(first, fmt::format("contour group of lines {} to {}: one shift of {}; what remains of its corrections "
-                          "is up to {:.4f} mm",
-                          first.line, last_line, said, residual.norm()));
+                          "is up to {:.4f} mm{}",
+                          first.line, last_line, motion_words,
+                          std::max(residual.norm(), largest_left(feeds, motion, group_in_xy_)),
+                          words_beside(first_segment, s)));
   return true;
 }
 

@@ -94,6 +94,7 @@ class Emitter {
   bool is_in_xy(std::size_t m) const;
   bool group_may_turn(std::size_t m) const;
   bool find_group_motion(std::size_t m, std::size_t s);
+  std::string words_beside(std::size_t begin, std::size_t end);
   Vector3 group_shift_mm(const Move& move, Index s, double height) const;
   void divide_by_height(const Move& move, std::size_t s, MoveEdit& edit) const;
   Vector3 shifted_centre(const Move& move, const Vector3& shift) const;

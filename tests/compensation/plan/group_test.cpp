@@ -217,3 +217,21 @@ TEST_CASE("a move of a turned contour has the digits of both of its ends") {
   CHECK(!result.failure);
   if (result.failure) MESSAGE(result.failure->what);
 }
+
+TEST_CASE("the list has what the centre of a contour's tool misses beside the contour") {
+  const auto why = [](const Machine& machine) {
+    return compensated(Shop({.machine = machine, .text = contour})).left_alone.at(0).why;
+  };
+  // X is off by -y times the angle, beside a line along X by 10 mm more of y.
+  CHECK(why(rigid_gantry("0, 0, 0", 1e-3)).ends_with("by up to 0.0100 mm more for each 10 mm of the radius"));
+  CHECK(why(rigid_gantry("0, 0, 0", 5e-5)).find("radius") == std::string::npos);
+  CHECK(why(displaced_gantry()).find("radius") == std::string::npos);
+  CHECK(why(rigid_gantry("0, 0, 0", 0, 0, 2e-3)).find("radius") == std::string::npos);  // the contour turns
+}
+
+TEST_CASE("what remains of a contour's corrections counts its plunge from the start, and no shift is -0") {
+  const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 1e-3), .text = contour});
+  const std::string why = compensated(shop).left_alone.at(0).why;
+  CHECK(why.find("what remains of its corrections is up to 0.0050 mm") != std::string::npos);
+  CHECK(why.find("-0.0000") == std::string::npos);
+}
