@@ -191,3 +191,28 @@ TEST_CASE("on an upright arc the force of a cut steps where the feed is 10 degre
     }
   }
 }
+
+TEST_CASE(
+    "an arc that ends at the steepest ramp, and one at the end of a very long path, have finite forces") {
+  CuttingModel model = test::sample_cut();
+  model.spindle_rpm = 6000;
+  ForceSource source;
+  source.rules = {{"cut", {}, {}, respond(model)}};
+  source.blend = 2 * mm;
+  const auto place = [](double angle) { return Vector3(-50 * std::cos(angle), 0, -50 * std::sin(angle)); };
+  for (const double beside : {0.0, 1e-13, -1e-13, 1e-11, -1e-11, 1e-9, -1e-9, 1e-7, -1e-7})
+    for (const double from : {0.0, 40 * deg})
+      for (const double far_mm : {0.0, 1e10}) {
+        CAPTURE(beside);
+        CAPTURE(from);
+        CAPTURE(far_mm);
+        const Program program = ProgramBuilder(place(from) - Vector3(far_mm, 0, 0))
+                                    .feed(place(from), 600)
+                                    .feed(place(10 * deg + beside), 600)
+                                    .about({0, 0, 0}, 1, from == 0)
+                                    .program;
+        const auto forces = forces_on(program, source);
+        const std::size_t arc = far_mm == 0 ? 0 : 1;
+        for (int k = 0; k <= 20; ++k) CHECK(forces.at(arc, k / 20.0).allFinite());
+      }
+}

@@ -135,9 +135,9 @@ void remark_on_name(const Setting& setting, Options& options) {
 }
 
 std::string default_output(const std::string& program) {
-  // Nothing is written beside /dev/stdin and /dev/fd/3.
-  if (program == "-" || program.starts_with("/dev/")) return "-";
   const std::filesystem::path path(program);
+  // Nothing is written beside /dev/stdin and /dev/fd/3.
+  if (program == "-" || path.parent_path() == "/dev" || path.parent_path() == "/dev/fd") return "-";
   return (path.parent_path() / (path.stem().generic_string() + ".comp" + path.extension().generic_string()))
       .generic_string();
 }

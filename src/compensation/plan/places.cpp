@@ -87,7 +87,7 @@ void add_positions_of_tables(const Job& job, PlaceSolver& solver, const Segment&
     for (const ErrorKnots& knots : model.mechanism.error_knots) {
       const double from = before[knots.actuator], to = behind[knots.actuator];
       for (const double position : knots.rho)
-        if ((position - from) * (position - to) < 0)
+        if (from != to && (position - from) * (position - to) <= 0)
           fractions.push_back((static_cast<double>(k - 1) + (position - from) / (to - from)) / steps);
     }
   }

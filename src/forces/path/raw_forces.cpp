@@ -75,14 +75,19 @@ bool is_steep(double slope) {
   return std::abs(slope) > steepest_ramp;
 }
 
+// Between two places a slope changes by less, where it is nearly this steep.
+constexpr double least_steep = steepest_ramp - 0.02;
+constexpr int most_halvings = 60;  // of long paths: their ends are far apart for `shortest_piece`
+
 /// Adds the places between increasing `places` where a slope is steepest, if it is steep there.
 void add_steepest(const SlopeAt& slope, std::vector<double>& places) {
   const auto size = [&](double s) { return std::abs(slope(s)); };
   const std::size_t count = places.size();
   for (std::size_t k = 0; k + 1 < count; ++k) {
     double a = places[k], b = places[k + 1];
-    if (is_steep(slope(a)) || is_steep(slope(b))) continue;
-    while (b - a > shortest_piece) {
+    const double steepest = std::max(size(a), size(b));
+    if (is_steep(steepest) || steepest < least_steep) continue;
+    for (int i = 0; i < most_halvings && b - a > shortest_piece; ++i) {
       const double c = a + (b - a) / 3, d = b - (b - a) / 3;
       (size(c) < size(d) ? a : b) = size(c) < size(d) ? c : d;
     }
@@ -98,11 +103,12 @@ struct SlopeLimit {
 std::optional<SlopeLimit> limit_between(const SlopeAt& slope, double from, double to) {
   const bool begins_steep = is_steep(slope(from));
   if (begins_steep == is_steep(slope(to))) return std::nullopt;
-  while (to - from > shortest_piece) {
-    const double middle = (from + to) / 2;
-    (is_steep(slope(middle)) == begins_steep ? from : to) = middle;
+  double before = from, after = to;
+  for (int i = 0; i < most_halvings && after - before > shortest_piece; ++i) {
+    const double middle = (before + after) / 2;
+    (is_steep(slope(middle)) == begins_steep ? before : after) = middle;
   }
-  return SlopeLimit{from, to};
+  return SlopeLimit{before, after};
 }
 
 }  // namespace
@@ -314,16 +320,26 @@ void RawForces::give_cut(const CutResponse& response, double s0, double s1, std:
     return;
   }
   add_steepest(slope, places);
-  const auto give = [&](double from, double to, double end, bool goes_on) {
+  bool goes_on = false;
+  // Over [begin, end], with the forces at `from` and `to`.
+  const auto give = [&](double begin, double end, double from, double to) {
     const CutForce a = force(from), b = force(to);
     if (a.why.empty() || b.why.empty()) stretch_.why.clear();
-    stretch_.pieces.push_back({from, end, a.F, b.F, Vector6::Zero(), goes_on});
+    stretch_.pieces.push_back({begin, end, a.F, b.F, Vector6::Zero(), goes_on});
+    goes_on = true;
   };
   for (std::size_t k = 1; k < places.size(); ++k) {
     const double from = places[k - 1], to = places[k];
     const auto limit = limit_between(slope, from, to);
-    if (limit) give(from, limit->before, limit->after, k > 1);
-    give(limit ? limit->after : from, to, to, !limit && k > 1);
+    if (!limit) {
+      give(from, to, from, to);
+      continue;
+    }
+    const bool at_start = limit->after - from < 2 * shortest_piece,
+               at_end = to - limit->after < 2 * shortest_piece;
+    if (!at_start) give(from, at_end ? to : limit->after, from, limit->before);
+    goes_on = false;
+    if (!at_end) give(at_start ? from : limit->after, to, limit->after, to);
   }
 }
 
