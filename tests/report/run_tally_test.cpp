@@ -249,12 +249,38 @@ TEST_CASE("a narrowed contour is a warning, except for a tool that is known to f
   };
   CHECK(warnings_with(0.022).count == 0);
   CHECK(contains(warnings_with(0.023).rows.at(0).what, "T3 (23 mm) leaves less"));
-  CHECK(contains(warnings_with(0.028).rows.at(0).what, "T3 (28 mm) is too large"));
+  CHECK(contains(warnings_with(0.051).rows.at(0).what, "T3 (51 mm) is too large"));
   const Capped<Remark> unknown = warnings_with({});
   REQUIRE(unknown.count == 1);
   CHECK(unknown.rows[0].line == 5);
   CHECK(contains(unknown.rows[0].what, "13.83 mm"));
   CHECK(contains(unknown.rows[0].what, "25.00 mm"));
+}
+
+TEST_CASE(
+    "a contour that the tool passes as programmed only is a failure, whose radius D of its block gives") {
+  const auto failure_with = [&](std::optional<double> diameter, std::optional<double> stated_mm) {
+    Compensation c;
+    c.narrowed = {
+        {.line = 5, .tool = 3, .programmed_mm = 25, .written_mm = 13.838, .diameter_mm = stated_mm}};
+    RunTally tally(2, {}, {{3, diameter, {}}});
+    tally.add_compensation(c);
+    const std::optional<Failure> failure = tally.contour_failure(c);
+    if (failure) CHECK(tally.contour_notes().count == 0);
+    return failure;
+  };
+  CHECK_FALSE(failure_with({}, {}));
+  CHECK_FALSE(failure_with(0.027, {}));
+  const std::optional<Failure> failure = failure_with(0.028, {});
+  REQUIRE(failure);
+  CHECK(failure->kind == ErrorKind::not_compensated);
+  CHECK(failure->line == 5);
+  CHECK(contains(failure->what, "verification failed: "));
+  CHECK(contains(failure->what, "T3 (28 mm) is too large"));
+  CHECK_FALSE(failure_with(0.051, {}));  // it does not pass the programmed contour, either
+  CHECK(failure_with({}, 28));
+  CHECK(failure_with(0.01, 28));
+  CHECK_FALSE(failure_with(0.028, 10));
 }
 
 TEST_CASE("of written targets with the largest correction the first is named, whatever window it is in") {

@@ -23,6 +23,7 @@ struct NarrowedContour {
   int line = 0;                              ///< of the divided block that leaves the least room
   std::int32_t tool = 0;                     ///< `Move::tool`
   double programmed_mm = 0, written_mm = 0;  ///< largest radius that passes the corners of the contour
+  std::optional<double> diameter_mm{};       ///< of the tool, by D of G41.1 or G42.1
 };
 
 /// What comes of a window. The kind of a failure is `not_compensated` (not solved, or not within the

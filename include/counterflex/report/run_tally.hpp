@@ -185,6 +185,9 @@ class RunTally {
   /// nor its `corrected`.
   void add_compensation(const Compensation& compensation);
 
+  /// The failure of the first contour that the tool passes as programmed, but not as it is written.
+  std::optional<Failure> contour_failure(const Compensation& compensation) const;
+
   /// The next window of the corrected program as it was read back, after `ignore_axes`: whole lines, with
   /// line numbers of the corrected program. An empty program counts, too:
   /// nothing is added only where no program was written.
@@ -221,6 +224,7 @@ class RunTally {
   void list_corners(const std::vector<Waypoint>& waypoints, const Job& window);
   void add_reversals(const Job& window);
   ToolSize size_of(long tool) const;
+  ToolSize size_in(const NarrowedContour& contour) const;
   MoveFacts facts_of(const Job& window, const Waypoint& w) const;
 
   double min_block_ms_;

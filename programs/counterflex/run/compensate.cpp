@@ -48,6 +48,7 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
                                       ProofNotes* proof, Console& console) {
   Windows windows(run, console);
   Unnumbered unnumbered;
+  std::optional<Failure> contour_failure;
   WindowEvents events = windows.events(tally, files);
   if (proof != nullptr) proof->listen(events);
   events.done = [&](const Job&, const Compensation& window) {
@@ -59,12 +60,13 @@ std::optional<Failure> compensate_all(Run& run, RunTally& tally, RunFiles& files
     points = window.counts.points;
     alone.unlock();
     add(window, tally, files);
+    if (!contour_failure) contour_failure = tally.contour_failure(window);
     if (proof != nullptr) proof->add_text(window.text);
   };
   const std::optional<Failure> failure = compensate_windows(
       windows.jobs(), run.options, TextReader(windows.reader()), run.facts.attribution, events);
   unnumbered.warn(run.program.file, console);
-  return failure;
+  return failure ? failure : contour_failure;
 }
 
 /// Reads all bytes of a file.

@@ -35,6 +35,12 @@ ToolSize RunTally::size_of(long tool) const {
   return known != tools_.end() ? *known : ToolSize{tool, {}, {}};
 }
 
+ToolSize RunTally::size_in(const NarrowedContour& contour) const {
+  ToolSize tool = size_of(contour.tool);
+  if (contour.diameter_mm) tool.diameter = *contour.diameter_mm * mm;
+  return tool;
+}
+
 MoveFacts RunTally::facts_of(const Job& window, const Waypoint& w) const {
   const Move& move = window.program.moves[w.move];
   return {window.path.frames[move.frame].common_shift.value_or(Vector3::Zero()), size_of(move.tool),
@@ -194,9 +200,19 @@ void RunTally::add_compensation(const Compensation& compensation) {
   inserted_blocks_ += compensation.counts.inserted_blocks;
   text_bytes_ += compensation.text.size();
   for (const LeftAlone& block : compensation.left_alone) list(left_alone_, block);
-  for (const NarrowedContour& contour : compensation.narrowed)
-    if (const ToolSize tool = size_of(contour.tool); may_not_pass(contour, tool))
+  for (const NarrowedContour& contour : compensation.narrowed) {
+    const ToolSize tool = size_in(contour);
+    if (may_not_pass(contour, tool) && !passes_only_programmed(contour, tool))
       list(contour_notes_, Remark{contour.line, narrowed_in_words(contour, tool)});
+  }
+}
+
+std::optional<Failure> RunTally::contour_failure(const Compensation& compensation) const {
+  for (const NarrowedContour& contour : compensation.narrowed)
+    if (const ToolSize tool = size_in(contour); passes_only_programmed(contour, tool))
+      return Failure{ErrorKind::not_compensated, contour.line,
+                     "verification failed: " + narrowed_in_words(contour, tool)};
+  return std::nullopt;
 }
 
 void RunTally::add_corrected(const Program& corrected_window) {

@@ -51,6 +51,12 @@ bool may_not_pass(const NarrowedContour& contour, const ToolSize& tool) {
   return !tool.diameter || *tool.diameter / 2 > share * contour.written_mm * mm;
 }
 
+bool passes_only_programmed(const NarrowedContour& contour, const ToolSize& tool) {
+  if (!tool.diameter) return false;
+  const double radius_mm = *tool.diameter / 2 / mm;
+  return radius_mm > contour.written_mm && radius_mm <= contour.programmed_mm;
+}
+
 std::string narrowed_in_words(const NarrowedContour& contour, const ToolSize& tool) {
   std::string text = fmt::format(
       "this block of a contour is divided beside an inner corner: the radius of the tool may be at most "

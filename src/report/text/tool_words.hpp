@@ -16,6 +16,10 @@ std::string tilt_in_words(const ToolReport& tool, double tolerance_mm);
 /// diameter is unknown.
 bool may_not_pass(const NarrowedContour& contour, const ToolSize& tool);
 
+/// Whether the tool passes the programmed contour, but not the corrected one. Where it passes neither, the
+/// control may have another radius: that of a path of the centre is 0.
+bool passes_only_programmed(const NarrowedContour& contour, const ToolSize& tool);
+
 /// A warning that a contour is narrowed.
 std::string narrowed_in_words(const NarrowedContour& contour, const ToolSize& tool);
 

@@ -140,3 +140,19 @@ TEST_CASE("in LinuxCNC the block that approaches a contour takes a part of the f
   CHECK(result.narrowed[0].programmed_mm ==
         doctest::Approx(20.7005).epsilon(1e-5));  // its interpreter: the same
 }
+
+TEST_CASE("D of G41.1 is the diameter of the tool in a contour, where it is a number") {
+  const auto stated = [](const std::string& cutter) {
+    const std::string text = "G21 G90 G17 G40 G54\nT10 M6\nG0 X0 Y22 Z50\nZ5\nG1 Z-1 F200\n" + cutter +
+                             "X0.5 Y0 F300\nX50\nG3 X-50 Y0 I-50 J0\nG1 X0.6\nG40 X0 Y22\nG0 Z50\nM30\n";
+    const Compensation result =
+        compensated(Shop({.machine = leaning_gantry(1e-3), .text = text, .tolerance = 10 * um}));
+    REQUIRE(result.narrowed.size() == 1);
+    return result.narrowed[0].diameter_mm;
+  };
+  CHECK(stated("G41.1 D20 ") == 20.0);
+  CHECK(stated("g41.1 (D7) d 12.5 ") == 12.5);
+  CHECK(stated("D8 G41.1 ; D9\n") == 8.0);
+  CHECK(!stated("G41 D10 "));
+  CHECK(!stated("G41.1 D#<_d> "));
+}
