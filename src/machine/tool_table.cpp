@@ -56,6 +56,9 @@ class ToolLine {
            fmt::format("'{}' is not a word of a tool table; allowed are T, P, D, X, Y, Z, A, B, C, U, V, W, "
                        "I, J and Q with a number, and comments after ';'",
                        word));
+    if (read_.find(letter) != std::string::npos)
+      fail(at, fmt::format("'{}' gives {} a second time; give each word once in a line", word, letter));
+    read_ += letter;
     if (letter == 'Z') length_mm = *value;
     if (letter != 'T') return;
     if (*value < 0 || *value > largest_tool || *value != std::floor(*value))
@@ -67,12 +70,14 @@ class ToolLine {
   const std::string& file_;
   int line_;
   bool any_ = false;
+  std::string read_;  // letters of the words before
 };
 
 }  // namespace
 
 std::map<long, double> read_tool_table(std::string_view text, const std::string& file) {
   std::map<long, double> lengths;
+  if (text.starts_with("\xEF\xBB\xBF")) text.remove_prefix(3);
   for (int number = 1; !text.empty(); ++number) {
     const std::size_t end = text.find('\n');
     ToolLine line(text.substr(0, end), file, number);

@@ -18,6 +18,7 @@ TEST_CASE("a tool table gives lengths by tool number, with any other words in it
   CHECK(lengths.at(22) == doctest::Approx(-0.01225));
   CHECK(lengths.at(3) == 0);
   CHECK(read_tool_table("", "tool.tbl").empty());
+  CHECK(read_tool_table("\xEF\xBB\xBFT2 P2 Z120\n", "tool.tbl").at(2) == doctest::Approx(0.12));
 }
 
 TEST_CASE("a mistake in a tool table is an error at its place") {
@@ -43,4 +44,6 @@ TEST_CASE("a mistake in a tool table is an error at its place") {
   CHECK(diagnostic("T1 H2\n") == "tool.tbl:1:4: error: 'H2' " + allowed);
   CHECK(diagnostic("T1\nT2 P2 Z5,0\n") == "tool.tbl:2:7: error: 'Z5,0' " + allowed);
   CHECK(diagnostic("T1 Znan\n") == "tool.tbl:1:4: error: 'Znan' " + allowed);
+  CHECK(diagnostic("T2 P2 Z120 z90\n") ==
+        "tool.tbl:1:12: error: 'z90' gives Z a second time; give each word once in a line");
 }
