@@ -21,6 +21,9 @@ constexpr std::size_t slice = 64;               // rows for one thread at a time
 constexpr double interval = 1.959963984540054;  // deviations to each side: 95 %
 /// Of the noise of a row: parameters that move it by less within their prior deviations are not seen by it.
 constexpr double visible = 0.1;
+/// A prediction that is off by no more deviations of a row's noise is one that the row can test, whether
+/// other rows or an earlier fit made it.
+constexpr double predicted_noises = 3;
 
 /// Whether other sessions show the same parameters. Those of single axes do not.
 bool is_like_others(MeasurementKind kind) {
@@ -138,13 +141,16 @@ TestRows test_rows(const FitProblem& problem, const RowGroup& group, const Fit& 
     const LinearRow& row = all.rows[i];
     const Eigen::MatrixXd J =
         (row.at.J_p + row.at.J_s * held.frames[row.session].by_parameters).topRows(row.at.distances);
-    const double least = visible * visible * row.distance_scale * row.distance_scale;
+    // Of the stated noise: rows that contradict the fit have raised the real one.
+    const double least = visible * visible;
     const double before = (J * prior * J.transpose()).trace(), after = (J * left * J.transpose()).trace();
     if (before <= least) {
       result.blind.push_back(i);
       continue;
     }
-    const bool is_test = after < identified_share * identified_share * before;
+    const double noise = row.distance_scale * row.distance_scale * static_cast<double>(J.rows());
+    const bool is_test = after < std::max(identified_share * identified_share * before,
+                                          predicted_noises * predicted_noises * noise);
     (is_test ? result.tests : result.untested).push_back(i);
     std::vector<bool>& seen = is_test ? result.seen_by_tests : result.seen_by_untested;
     for (Eigen::Index k = 0; k < tried.size(); ++k)

@@ -184,8 +184,8 @@ Json covariance_json(const Identification& found) {
 
 Json json_of(const LadderStep& step) {
   Json json{{"set", name_of(step.set)},
-            {"gain", step.gain},
-            {"standard_error", step.gain_scatter},
+            {"gain", step.is_tested ? Json(step.gain) : Json()},
+            {"standard_error", step.is_tested ? Json(step.gain_scatter) : Json()},
             {"tested", step.is_tested},
             {"kept", step.is_kept}};
   if (!step.untested.empty()) json["untested_parameters"] = step.untested;
