@@ -1,5 +1,7 @@
 #include "counterflex/batch/manifest.hpp"
 
+#include <algorithm>
+
 #include "batch/outcomes.hpp"
 #include "files/folder.hpp"
 

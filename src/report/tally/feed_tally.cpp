@@ -1,5 +1,6 @@
 #include <algorithm>
 
+#include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
 #include "counterflex/toolpath/reach.hpp"

@@ -76,8 +76,10 @@ TEST_CASE("a jump less than a digit before the end of a move belongs to it, what
                                                           {"G1 X20. F600\nX20.\nX40.\nM30\n", 20},
                                                           {"G3 X10. I5. F600\nG1 Y9.\nM30\n", 15.70796},
                                                           {"G1 X20. F600\nG2 X30. I5.\nM30\n", 20}};
-  for (const auto& [text, end] : cases)
+  for (const auto& one : cases)
     for (const double rest : {1e-3, 6e-4, 2e-4, 5e-5}) {
+      const auto& text = one.first;
+      const double end = one.second;
       CAPTURE(text);
       CAPTURE(rest);
       const std::string rows = fmt::format("0, 100, 0, 0\n{:.5f}, 200, 60, 0\n", end - rest);

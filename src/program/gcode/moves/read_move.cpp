@@ -10,6 +10,7 @@
 #include "counterflex/program/kept_words.hpp"
 #include "program/expand/expand.hpp"
 #include "program/gcode/moves/contour.hpp"
+#include "program/gcode/remarks.hpp"
 #include "program/gcode/words/modal_words.hpp"
 
 namespace counterflex {
