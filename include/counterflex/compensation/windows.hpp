@@ -130,7 +130,7 @@ class JobWindows {
   const RunInput input_;
   ProgramReader& reader_;
   std::size_t moves_ = 0;  // before the window
-  std::size_t part_;       // of the size of windows without a log of forces
+  std::size_t part_;       // divides the size of the next window
   PathEnd path_end_{};
   ForceTail forces_{};
   std::optional<TipPosition> tip_{};

@@ -33,8 +33,8 @@ class ProgramReader {
   ~ProgramReader();
   ProgramReader(ProgramReader&&) noexcept;
 
-  /// Reads the next window. It may end at a `part` of the least size. At the end of the program, returns
-  /// false and sets an empty window. Throws `InputError` as `read_program` does.
+  /// Reads the next window. Its least size is divided by `part`, at least 1. At the end of the program,
+  /// returns false and sets an empty window. Throws `InputError` as `read_program` does.
   bool next(std::size_t part = 1);
 
   /// Extends the window to the next place at which it may end. False at the end of the program.
