@@ -1,13 +1,36 @@
 #include <algorithm>
+#include <array>
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <cstring>
 #include <limits>
 #include <stdexcept>
 
 #include "counterflex/files/text.hpp"
 
 namespace counterflex {
+namespace {
+
+constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
+  std::array<std::uint64_t, 20> powers{1};
+  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
+  return powers;
+}();
+
+/// Writes the last `count` digits of `number` before `end`.
+void put_digits(std::uint64_t number, int count, char* end) {
+  static constexpr auto pairs = [] {
+    std::array<char, 200> digits{};
+    for (std::size_t i = 0; i < digits.size(); ++i)
+      digits[i] = static_cast<char>('0' + (i % 2 == 0 ? i / 20 : i / 2 % 10));
+    return digits;
+  }();
+  for (; count >= 2; count -= 2, number /= 100) std::memcpy(end -= 2, &pairs[number % 100 * 2], 2);
+  if (count == 1) *--end = static_cast<char>('0' + number % 10);
+}
+
+}  // namespace
 
 std::optional<double> read_number(std::string_view text) {
   if (!text.empty() && text.front() == '+') {
@@ -45,6 +68,20 @@ std::string format_beside(double value, double limit, int decimals) {
   while (decimals < most && value != limit && text == format_fixed(limit, decimals))
     text = format_fixed(value, ++decimals);
   return text;
+}
+
+char* put_steps(std::int64_t whole, int decimals, char* to) {
+  if (whole < 0) *to++ = '-';
+  const auto steps = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
+  const std::uint64_t power = whole_powers_of_ten[static_cast<std::size_t>(decimals)];
+  const std::uint64_t before_point = steps / power;
+  int digits = 1;
+  while (before_point >= whole_powers_of_ten[static_cast<std::size_t>(digits)]) ++digits;
+  char* const point = to + digits;
+  put_digits(before_point, digits, point);
+  *point = '.';
+  put_digits(steps - before_point * power, decimals, point + 1 + decimals);
+  return point + 1 + decimals;
 }
 
 double rounded(double value, int decimals) {

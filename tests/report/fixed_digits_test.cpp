@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <random>
+#include <vector>
 
 #include "counterflex/files/text.hpp"
 
@@ -15,6 +16,13 @@ std::string appended(double value, int decimals) {
   std::string text = "x=";
   append_fixed(text, value, decimals);
   return text.substr(2);
+}
+
+// Each of `values` as `format_fixed` writes it.
+std::string expected(const std::vector<double>& values, int decimals) {
+  std::string row;
+  for (const double value : values) row += ',' + format_fixed(value, decimals);
+  return row;
 }
 
 }  // namespace
@@ -37,5 +45,19 @@ TEST_CASE("cells of ties, zeros and almost whole numbers are those of format_fix
       CAPTURE(value);
       CAPTURE(decimals);
       CHECK(appended(value, decimals) == format_fixed(value, decimals));
+    }
+}
+
+TEST_CASE("a row has all of its cells, those without a fast way among them") {
+  const std::vector<double> values{1, 0.5, -1e300, 2,  3,      1e13, 4,  5,  6,
+                                   7, 8,   9,      10, -11.25, 12,   13, 14, 1e18};
+  for (int decimals = 0; decimals <= 12; ++decimals)
+    for (std::size_t count = 0; count <= values.size(); ++count) {
+      CAPTURE(decimals);
+      CAPTURE(count);
+      const std::vector<double> some(values.begin(), values.begin() + static_cast<long>(count));
+      std::string row = "x";
+      append_cells(row, some, decimals);
+      CHECK(row == "x" + expected(some, decimals));
     }
 }

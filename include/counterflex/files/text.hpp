@@ -45,6 +45,10 @@ inline double value_of_steps(double whole, int decimals) {
   return whole == 0 ? 0.0 : whole / small_powers_of_ten[static_cast<std::size_t>(decimals)];
 }
 
+/// Writes `whole` / 10^`decimals` at `to`, with a decimal point, and returns the end. It has at most 24
+/// characters for up to 9 decimals.
+char* put_steps(std::int64_t whole, int decimals, char* to);
+
 /// `value` rounded to `decimals` digits, as the text of `format_fixed` would be read.
 double rounded(double value, int decimals);
 

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cstdint>
-#include <cstring>
 
 namespace counterflex {
 namespace {
@@ -83,39 +82,7 @@ void put_changed_number(std::string_view original, double value, int decimals, N
   if (style.plus && *text.begin != '-') *--text.begin = '+';
 }
 
-constexpr std::array<std::uint64_t, 20> whole_powers_of_ten = [] {
-  std::array<std::uint64_t, 20> powers{1};
-  for (std::size_t i = 1; i < powers.size(); ++i) powers[i] = powers[i - 1] * 10;
-  return powers;
-}();
-
-/// Writes the last `count` digits of `number` before `end`.
-void put_digits(std::uint64_t number, int count, char* end) {
-  static constexpr auto pairs = [] {
-    std::array<char, 200> digits{};
-    for (std::size_t i = 0; i < digits.size(); ++i)
-      digits[i] = static_cast<char>('0' + (i % 2 == 0 ? i / 20 : i / 2 % 10));
-    return digits;
-  }();
-  for (; count >= 2; count -= 2, number /= 100) std::memcpy(end -= 2, &pairs[number % 100 * 2], 2);
-  if (count == 1) *--end = static_cast<char>('0' + number % 10);
-}
-
 }  // namespace
-
-char* put_steps(std::int64_t whole, int decimals, char* to) {
-  if (whole < 0) *to++ = '-';
-  const auto steps = static_cast<std::uint64_t>(whole < 0 ? -whole : whole);
-  const std::uint64_t power = whole_powers_of_ten[static_cast<std::size_t>(decimals)];
-  const std::uint64_t before_point = steps / power;
-  int digits = 1;
-  while (before_point >= whole_powers_of_ten[static_cast<std::size_t>(digits)]) ++digits;
-  char* const point = to + digits;
-  put_digits(before_point, digits, point);
-  *point = '.';
-  put_digits(steps - before_point * power, decimals, point + 1 + decimals);
-  return point + 1 + decimals;
-}
 
 std::string too_many_decimals(std::string_view word, int decimals) {
   return fmt::format("{}: a number with {} decimals; at most {} are allowed: shorten it", word, decimals,

@@ -26,10 +26,6 @@ std::string changed_number(std::string_view original, double value, int decimals
 /// `value` with `decimals` digits after the decimal point, which is always written.
 std::string inserted_number(double value, int decimals);
 
-/// Writes `whole` / 10^`decimals` at `to`, with a decimal point, and returns the end. It has at most 24
-/// characters for up to 9 decimals.
-char* put_steps(std::int64_t whole, int decimals, char* to);
-
 /// 10^`digits`, at least for 0 to 9.
 inline double power_of_ten(int digits) {
   const auto i = static_cast<std::size_t>(digits);

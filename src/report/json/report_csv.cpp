@@ -23,13 +23,17 @@ void add_names(std::string& row, std::string_view deviation) {
   for (const char* name : deviation_names) row.append(",").append(deviation).append("_").append(name);
 }
 
-void add(std::string& row, double value, int digits) {
-  row += ',';
-  append_fixed(row, value, digits);
+template <int rows>
+void add(std::string& row, const Eigen::Matrix<double, rows, 1>& values, int digits) {
+  append_cells(row, {values.data(), rows}, digits);
+}
+
+void add_length(std::string& row, double value, int digits) {
+  add<1>(row, Eigen::Matrix<double, 1, 1>(value / mm), digits);
 }
 
 void add_rotation(std::string& row, const Vector3& rotation) {
-  for (int i = 0; i < 3; ++i) add(row, rotation[i] / deg, angle_digits);
+  add<3>(row, rotation / deg, angle_digits);
 }
 
 void add_deviation(std::string& row, const Vector6& d, bool known) {
@@ -37,7 +41,7 @@ void add_deviation(std::string& row, const Vector6& d, bool known) {
     row.append(6, ',');
     return;
   }
-  for (int i = 0; i < 3; ++i) add(row, d[i] / mm, length_digits);
+  add<3>(row, d.head<3>() / mm, length_digits);
   add_rotation(row, d.tail<3>());
 }
 
@@ -45,7 +49,7 @@ void add_bands(std::string& row, const Waypoint& w, bool corrected) {
   const bool known = w.status == Status::converged && w.covariance;
   const auto add_band = [&](const Vector6& deviation, bool has) {
     if (has)
-      add(row, band(deviation.head<3>(), w.covariance->topLeftCorner<3, 3>()) / mm, length_digits);
+      add_length(row, band(deviation.head<3>(), w.covariance->topLeftCorner<3, 3>()), length_digits);
     else
       row += ',';
   };
@@ -60,9 +64,9 @@ void add_row(std::string& text, std::size_t index, const Waypoint& w, const CsvC
   static const Causes none;
   const Causes& causes = attributed ? *w.causes : none;
   text += std::to_string(index) + ',' + std::to_string(w.line) + (w.cutting ? ",1" : ",0");
-  add(text, w.s / mm, path_digits);
-  for (int i = 0; i < 3; ++i) add(text, w.p_MT[i] / mm, path_digits);
-  for (int i = 0; i < 6; ++i) add(text, w.wrench[i], wrench_digits);
+  add_length(text, w.s, path_digits);
+  add<3>(text, w.p_MT / mm, path_digits);
+  add<6>(text, w.wrench, wrench_digits);
   add_deviation(text, w.before, solved);
   for (const Cause& cause : all_causes)
     if (is_in_all_files(cause)) add_deviation(text, cause.of(causes), attributed);
