@@ -1,7 +1,10 @@
 #include "compensation/plan/places.hpp"
 
 #include <algorithm>
+#include <array>
 #include <cmath>
+#include <cstddef>
+#include <memory_resource>
 
 #include "compensation/solve/commands.hpp"
 #include "compensation/tuning.hpp"
@@ -104,6 +107,22 @@ bool is_largest_at_ends(const Job& job, const ForceChord& stretch, std::span<con
   });
 }
 
+// By how much the force differs from an even change between the ends of a stretch: at `corners` (fractions of
+// the segment, inside the stretch) and, where it may curve between them, at its eighths.
+void add_force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
+                     ForceCursor& cursor, std::pmr::vector<Vector6>& bends) {
+  const auto add = [&](double u) {
+    const double v = (u - stretch.u0) / (stretch.u1 - stretch.u0);
+    const Vector6 F = job.forces.at(stretch.segment, u, Side::before, cursor);
+    bends.emplace_back(F - (1 - v) * stretch.F0 - v * stretch.F1);
+  };
+  const int inside = job.forces.is_linear_between_breaks() ? 0 : eighths - 1;
+  bends.reserve(corners.size() + static_cast<std::size_t>(inside));
+  for (const double u : corners) add(u);
+  for (int k = 1; k <= inside; ++k)
+    add(stretch.u0 + static_cast<double>(k) / eighths * (stretch.u1 - stretch.u0));
+}
+
 // How much the tip bends along a line that needs no places at the corners of the force; nothing where it
 // needs them.
 std::optional<double> bend_without_corners(const Job& job, PlaceSolver& solver, std::size_t index,
@@ -151,28 +170,16 @@ void fractions_inside(const Job& job, PlaceSolver& solver, std::size_t index, in
   fractions.erase(std::unique(fractions.begin(), fractions.end(), same), fractions.end());
 }
 
-std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
-                                 ForceCursor& cursor) {
-  std::vector<Vector6> bends;
-  bends.reserve(corners.size() + eighths);
-  const auto add = [&](double u) {
-    const double v = (u - stretch.u0) / (stretch.u1 - stretch.u0);
-    const Vector6 F = job.forces.at(stretch.segment, u, Side::before, cursor);
-    bends.emplace_back(F - (1 - v) * stretch.F0 - v * stretch.F1);
-  };
-  for (const double u : corners) add(u);
-  for (int k = 1; k < eighths && !job.forces.is_linear_between_breaks(); ++k)
-    add(stretch.u0 + static_cast<double>(k) / eighths * (stretch.u1 - stretch.u0));
-  return bends;
-}
-
 LineBend bend_of(const Job& job, PlaceSolver& solver, const ForceChord& stretch,
                  std::span<const double> corners, ForceCursor& cursor) {
   const Segment& segment = job.path.segments[stretch.segment];
   const bool steps = job.options.blend == 0 && !corners.empty();
   if (segment.wanted.arc || segment.turn || steps || reverses_inside(job, stretch))
     return {HUGE_VAL, HUGE_VAL};
-  const std::vector<Vector6> dF = force_bends(job, stretch, corners, cursor);
+  std::array<std::byte, 16 * sizeof(Vector6)> nearly_always_enough;
+  std::pmr::monotonic_buffer_resource memory(nearly_always_enough.data(), nearly_always_enough.size());
+  std::pmr::vector<Vector6> dF(&memory);
+  add_force_bends(job, stretch, corners, cursor, dF);
   return solver.bend_along(model_of(job, segment),
                            {point_at(segment.wanted, stretch.u0), point_at(segment.wanted, stretch.u1),
                             stretch.F0, stretch.F1, dF});

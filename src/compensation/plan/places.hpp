@@ -39,11 +39,6 @@ struct ForceChord {
   Vector6 F0 = Vector6::Zero(), F1 = Vector6::Zero();
 };
 
-/// By how much the force differs from an even change between the ends of a stretch: at `corners` (fractions
-/// of the segment, inside the stretch) and, where it may curve between them, at its eighths.
-std::vector<Vector6> force_bends(const Job& job, const ForceChord& stretch, std::span<const double> corners,
-                                 ForceCursor& cursor);
-
 /// How much a line may bend in such a part, where the force has corners inside of it: as
 /// `PlaceSolver::bend_along`. Infinite around an arc, where the tool turns, and where the force steps or a
 /// joint reverses inside of it.

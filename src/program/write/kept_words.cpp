@@ -5,7 +5,6 @@
 #include <cctype>
 #include <span>
 #include <string_view>
-#include <vector>
 
 #include "counterflex/files/input_error.hpp"
 #include "program/expand/expand.hpp"
@@ -22,12 +21,23 @@ bool is_height(const Move& move, const PackedAxisWord& word) {
   return axes == 1;
 }
 
-std::vector<Span> rewritten_numbers(const Move& move) {
-  std::vector<Span> numbers;
-  numbers.reserve(16);
+// In their order in the text. A move has all of its words at most.
+struct RewrittenNumbers {
+  std::array<Span, 3 + 4 + 4 + 3 + 1 + 2> all;  // axes, heights, orientation, centre, radius, cycle
+  std::size_t count = 0;
+
+  std::span<const Span> in_order() {
+    const auto numbers = std::span(all).first(count);
+    std::ranges::sort(numbers, {}, &Span::begin);
+    return numbers;
+  }
+};
+
+RewrittenNumbers rewritten_numbers(const Move& move) {
+  RewrittenNumbers numbers;
   const auto add = [&](const PackedAxisWord& word) {
     // A block may also have words of one before it: the centre or the surface that it uses.
-    if (word && word->number.begin >= move.block.begin) numbers.push_back(word->number);
+    if (word && word->number.begin >= move.block.begin) numbers.all[numbers.count++] = word->number;
   };
   for (std::size_t axis = 0; axis < (move.called ? 2 : 3); ++axis)
     if (!move.polar || is_height(move, move.words[axis])) add(move.words[axis]);
@@ -43,7 +53,6 @@ std::vector<Span> rewritten_numbers(const Move& move) {
     add(move.cycle->bottom_word);
     add(move.cycle->retract_word);
   }
-  std::sort(numbers.begin(), numbers.end(), [](Span a, Span b) { return a.begin < b.begin; });
   return numbers;
 }
 
@@ -132,7 +141,8 @@ std::string without_rewritten_words(const Program& program, const Move& move, bo
   };
   // CYCLE81(50,0,2,-20)
   const bool arguments = move.called && move.called->heights[0] && move.called->modal.empty();
-  for (const Span& number : rewritten_numbers(move)) {
+  RewrittenNumbers numbers = rewritten_numbers(move);
+  for (const Span& number : numbers.in_order()) {
     keep(number.begin);
     const bool bracket = !arguments && drop_letter(text, klartext);
     at = number.end;
