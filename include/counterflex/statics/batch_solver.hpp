@@ -67,12 +67,16 @@ struct LineBend {
   double gain;
 };
 
+class CellCache;
+
 /// The cells of a model in which the kernel starts. Each is made when it is first needed, from its place
 /// alone. Threads may share a table. The model must outlive it.
 class StartTable {
  public:
   /// `at_platform`: where loads act, as in `Load`.
   StartTable(const Model& model, bool at_platform);
+  /// The same with memory that other tables use, too.
+  StartTable(const Model& model, bool at_platform, std::shared_ptr<CellCache> cells);
   ~StartTable();
 
   struct Impl;

@@ -106,8 +106,9 @@ inline constexpr double load_of_cells = 250, remainder_margin = 2;
 /// with 1e-7 1.2, with 5e-7 1.9 (a sixth slower). Other machines take as many steps with all three; none
 /// takes fewer with 1e-9.
 inline constexpr double negligible_term = 2e-8;
-/// That are kept, of each kind; the oldest quarter is forgotten at once. With 6 MB rows of the bench's raster
-/// make their cells again: a quarter more instructions with reports.
-inline constexpr std::size_t bytes_of_cells = 9'000'000;
+/// That all tables of a run keep; the oldest quarter is forgotten at once. The bench's fine path of 200,000
+/// blocks makes 261 cells; with 20 MB 356, with 9 MB of each kind 1066, a sixth more instructions. Its run
+/// with reports takes 64 MB.
+inline constexpr std::size_t bytes_of_cells = 22'000'000;
 
 }  // namespace counterflex

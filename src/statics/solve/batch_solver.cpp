@@ -27,10 +27,13 @@ bool share_a_face(const CellIndex& a, const CellIndex& b) {
 }  // namespace
 
 StartTable::StartTable(const Model& model, bool at_platform)
-    : impl_(std::make_unique<Impl>(model, at_platform)) {}
+    : StartTable(model, at_platform, std::make_shared<CellCache>(bytes_of_cells)) {}
+StartTable::StartTable(const Model& model, bool at_platform, std::shared_ptr<CellCache> cells)
+    : impl_(std::make_unique<Impl>(model, at_platform, std::move(cells))) {}
 StartTable::~StartTable() = default;
 
 struct StartTables::Impl {
+  const std::shared_ptr<CellCache> cells = std::make_shared<CellCache>(bytes_of_cells);
   std::mutex mutex{};
   std::map<std::pair<const Model*, bool>, StartTable> tables{};
 };
@@ -41,7 +44,7 @@ StartTables::StartTables(StartTables&&) noexcept = default;
 
 const StartTable& StartTables::of(const Model& model, bool at_platform) const {
   const std::lock_guard lock(impl_->mutex);
-  return impl_->tables.try_emplace({&model, at_platform}, model, at_platform).first->second;
+  return impl_->tables.try_emplace({&model, at_platform}, model, at_platform, impl_->cells).first->second;
 }
 
 struct BatchSolver::Impl {

@@ -10,15 +10,8 @@ namespace {
 
 constexpr double farthest_cell = 1e9;  // from the origin of M, in edges: their numbers fit
 
-/// How many cells of a target fit into `bytes_of_cells`.
-std::size_t kept_cells(const kernel::FlatMachine& machine, bool turns) {
-  const auto unknowns = static_cast<std::size_t>(machine.unknowns());
-  const kernel::Variables variables{turns, true};
-  const auto of_stress = static_cast<std::size_t>(1 + variables.count() + 3 * 6);
-  const std::size_t numbers =
-      unknowns * (kernel::terms_of(variables).size() + 4) + 6 * machine.elements.size() * of_stress;
-  return std::max<std::size_t>(2, bytes_of_cells / (sizeof(double) * numbers));
-}
+// Kinds of what is kept; a target adds two bits for its stage.
+constexpr int of_landmark = 0, of_kinematics = 1, of_target = 2;
 
 /// The cell in the middle of a cube of cells.
 CellIndex landmark_of(const CellIndex& index) {
@@ -34,7 +27,38 @@ CellIndex landmark_of(const CellIndex& index) {
   return landmark;
 }
 
+std::size_t bytes_of(const kernel::Polynomials& polynomials) {
+  return sizeof(kernel::Term) * polynomials.terms.capacity() +
+         sizeof(double) * polynomials.coefficients.capacity();
+}
+
+std::size_t bytes_of(const std::vector<SeriesState>& chains) {
+  std::size_t bytes = 0;
+  for (const SeriesState& chain : chains) {
+    bytes += sizeof(SeriesState) +
+             sizeof(double) * static_cast<std::size_t>(chain.x.size() + chain.x_nominal.size());
+    for (const GroupState& group : chain.groups) bytes += sizeof(GroupState) + bytes_of(group.branches);
+  }
+  return bytes;
+}
+
 }  // namespace
+
+std::size_t bytes_of(const Configuration& configuration) {
+  return sizeof(Configuration) + bytes_of(configuration.chains);
+}
+
+std::size_t bytes_of(const kernel::StartCell& cell) {
+  std::size_t numbers = 0;
+  for (const auto* own : {&cell.state, &cell.cosine, &cell.sine, &cell.stress, &cell.pivots})
+    numbers += own->capacity();
+  return sizeof(cell) + sizeof(double) * numbers + bytes_of(cell.changes) + bytes_of(cell.stress_changes) +
+         bytes_of(cell.offset_changes);
+}
+
+std::size_t bytes_of(const KinematicsCell& cell) {
+  return sizeof(cell) + bytes_of(cell.nominal) + bytes_of(cell.start);
+}
 
 std::optional<Stage> stage_of_cells(const Stage& stage, bool has_weight) {
   const Stage of_cells{.errors = stage.errors, .gravity = has_weight ? stage.gravity : 1};
@@ -43,7 +67,7 @@ std::optional<Stage> stage_of_cells(const Stage& stage, bool has_weight) {
   return of_cells;
 }
 
-StartTable::Impl::Impl(const Model& m, bool platform)
+StartTable::Impl::Impl(const Model& m, bool platform, std::shared_ptr<CellCache> cells)
     : model(m),
       at_platform(platform),
       flat(kernel::flatten(m.mechanism, platform)),
@@ -58,7 +82,7 @@ StartTable::Impl::Impl(const Model& m, bool platform)
       controls_positions(m.mechanism.controlled.size() == 3),
       has_weights(has_weight(m.mechanism)),
       edge((only_slides(m.mechanism) ? straight_edge : bent_edge) * m.mechanism.length),
-      most_cells(kept_cells(flat.machine, !controls_positions)) {}
+      cells_(std::move(cells)) {}
 
 std::optional<CellIndex> StartTable::Impl::index_of(const Vector3& p, const Vector3& turn) const {
   CellIndex index;
@@ -90,14 +114,13 @@ kernel::Question StartTable::Impl::question(const Stage& stage) const {
 }
 
 std::shared_ptr<const KinematicsCell> StartTable::Impl::kinematics(const CellIndex& index) {
-  return kinematics_.get(index, most_cells, [&] { return make_kinematics(index); });
+  return cells_->get<KinematicsCell>({this, of_kinematics, index}, [&] { return make_kinematics(index); });
 }
 
 std::shared_ptr<const kernel::StartCell> StartTable::Impl::target(const CellIndex& index,
                                                                   const Stage& stage) {
-  CellCache<kernel::StartCell>& cells =
-      targets_[(stage.errors == 1 ? 1U : 0U) + (stage.gravity == 1 ? 2U : 0U)];
-  return cells.get(index, most_cells, [&] { return make_target(index, stage); });
+  const int kind = of_target + (stage.errors == 1 ? 1 : 0) + (stage.gravity == 1 ? 2 : 0);
+  return cells_->get<kernel::StartCell>({this, kind, index}, [&] { return make_target(index, stage); });
 }
 
 NominalResult StartTable::Impl::nominal_at(const CellIndex& index) {
@@ -106,11 +129,12 @@ NominalResult StartTable::Impl::nominal_at(const CellIndex& index) {
     return Pose{place.R, place.centre};
   };
   const CellIndex landmark = landmark_of(index);
-  const auto from = landmarks_.get(landmark, most_cells, [&]() -> std::shared_ptr<const Configuration> {
-    NominalResult there = follow(model, model.home, pose_of(landmark));
-    if (there.status != Status::converged) return nullptr;
-    return std::make_shared<const Configuration>(std::move(there.configuration));
-  });
+  const auto from = cells_->get<Configuration>(
+      {this, of_landmark, landmark}, [&]() -> std::shared_ptr<const Configuration> {
+        NominalResult there = follow(model, model.home, pose_of(landmark));
+        if (there.status != Status::converged) return nullptr;
+        return std::make_shared<const Configuration>(std::move(there.configuration));
+      });
   if (from) {
     NominalResult near = follow(model, *from, pose_of(index));
     if (near.status == Status::converged) return near;
