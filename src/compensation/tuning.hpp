@@ -43,4 +43,8 @@ inline constexpr double between_places = 5 * mm;
 /// lines.
 inline constexpr double angle_between_places = pi / 8;
 
+/// Between places around an arc the force leaves its chord by this part of itself, at most. The largest
+/// deviation is as near to that of a place. A force in the feed frame has places 2.6 degrees apart: 0.02 %.
+inline constexpr double turn_of_force = 2.5e-4;
+
 }  // namespace counterflex

@@ -135,6 +135,26 @@ std::optional<double> bend_without_corners(const Job& job, PlaceSolver& solver, 
   return bend.gain * bend.command;
 }
 
+// Adds places between those of an arc along which the force turns, so that the largest deviation is near one.
+void add_turns_of_force(const Job& job, std::size_t index, ForceCursor& cursor,
+                        std::vector<double>& fractions) {
+  const std::size_t count = fractions.size();
+  for (std::size_t k = 0; k <= count; ++k) {
+    const double u0 = k == 0 ? 0 : fractions[k - 1], u1 = k == count ? 1 : fractions[k];
+    const Vector6 F0 = job.forces.at(index, u0, Side::after, cursor),
+                  F1 = job.forces.at(index, u1, Side::before, cursor),
+                  F = job.forces.at(index, (u0 + u1) / 2, Side::before, cursor);
+    // A chord of half the length is a quarter as far off. What turns with the arc needs no more places than
+    // that: a force that grows is as large at one of its places.
+    const double off = (F - (F0 + F1) / 2).norm(), turn = (u1 - u0) * angle_along(job.path.segments[index]),
+                 by_force = std::sqrt(off / (turn_of_force * F.norm())),
+                 by_angle = turn / (2 * std::acos(1 - turn_of_force));
+    const double parts = off > 0 ? std::ceil(std::min(by_force, by_angle)) : 1;
+    for (int i = 1; i < parts; ++i) fractions.push_back(u0 + (u1 - u0) * i / parts);
+  }
+  std::sort(fractions.begin(), fractions.end());
+}
+
 }  // namespace
 
 double angle_along(const Segment& segment) {
@@ -194,6 +214,7 @@ void places_along(const Job& job, PlaceSolver& solver, std::size_t index, ForceC
   if (segment.cutting) {
     const int steps = steps_along(job, segment);
     fractions_inside(job, solver, index, steps, cursor, fractions);
+    if (segment.wanted.arc) add_turns_of_force(job, index, cursor, fractions);
     if (steps == 1 && !fractions.empty())
       places.bend = bend_without_corners(job, solver, index, fractions, cursor);
     if (places.bend) fractions.clear();

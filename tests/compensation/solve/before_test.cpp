@@ -1,4 +1,8 @@
 // Of one program all runs find the same deviation before compensation.
+#include <fmt/format.h>
+
+#include <cmath>
+
 #include "compensation/support/gantry.hpp"
 
 using namespace counterflex;
@@ -141,4 +145,30 @@ TEST_CASE("what verify finds does not depend on its tolerance") {
     const Compensation found = judged(other, written.text);
     CHECK(largest_miss_after(found.waypoints) < expected + 1e-6);
   }
+}
+
+// The circle begins at several of its points, between which its places are elsewhere.
+TEST_CASE("the largest deviation around a circle with a turning force is found wherever the circle begins") {
+  ForceSource force;
+  force.rules = read_force_csv(
+      "# frame = feed\n# sense = on_tool\nline, fx_N, fy_N, fz_N\n1, 300, 100, -40\n", "forces.csv");
+  force.blend = 0;
+  const std::string machine = replaced(read_file(small_mill), "[2e-7, 2e-7,", "[2e-7, 1e-8,");
+  double least = 1, most = 0;
+  for (const double begin_deg : {0.0, 5.0, 11.25, 17.0}) {
+    const double x = 3 * std::cos(begin_deg * deg), y = 3 * std::sin(begin_deg * deg);
+    const std::string circle =
+        fmt::format("G0 X{0:.6f} Y{1:.6f} Z0\nG3 X{0:.6f} Y{1:.6f} I{2:.6f} J{3:.6f}", x, y, -x, -y);
+    const Shop shop({.machine = read_machine(machine, "mill.toml"),
+                     .text = "G21 G90 G17\n" + circle + " F600\nM30\n",
+                     .force = force});
+    const ForwardRun predicted = solve_pieces(shop.job(), original_pieces(shop.job()), {.inside = false});
+    REQUIRE(!predicted.failure);
+    double largest = 0;
+    for (const Waypoint& w : predicted.waypoints)
+      if (w.cutting) largest = std::max(largest, w.before.head<3>().norm());
+    least = std::min(least, largest);
+    most = std::max(most, largest);
+  }
+  CHECK(least > (1 - 4e-4) * most);
 }
