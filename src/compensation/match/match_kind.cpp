@@ -129,13 +129,20 @@ class KindComparison {
     add_sweep(found);
   }
 
-  // About the centre where the correction at the start puts it.
+  // About the centre where the correction at the start puts it, and where the first piece puts it if that is
+  // a jump to another correction. An arc turns about its own centre: the correction may change along it by as
+  // much as the radius of a small one.
   void add_sweep(const Move& found) {
     const Move& first = matched_.first();
     if (!all_known(original_.known_start) || !all_known(first.known_start)) return;
-    Arc axis = *curve_of(original_).arc;
-    axis.centre += first.start_mm - original_.start_mm;
-    sweep_ += angle_about(axis, curve_of(found));
+    const Curve curve = curve_of(found);
+    const auto angle_from = [&](const Vector3& start_mm) {
+      Arc axis = *curve_of(original_).arc;
+      axis.centre += start_mm - original_.start_mm;
+      return curve.arc ? curve.arc->sweep : angle_about(axis, curve);
+    };
+    sweep_ += angle_from(first.start_mm);
+    if (&found != &first) sweep_behind_jump_ += angle_from(first.end_mm);
   }
 
   void fail_kind(const Move& found) {
@@ -180,7 +187,10 @@ class KindComparison {
     const bool known = all_known(found.known_start) && all_known(original_.known_start);
     if (original_.handling == Handling::group && known && chord > roundings * rounding_mm_ + 1e-6)
       return fail_kind(found);
-    if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) return;
+    if (may_be_jump && chord <= 2 * most_shift_mm_ && sagitta <= room) {
+      may_begin_with_jump_ = true;
+      return add_sweep(found);
+    }
     if (!known || (sagitta > room && matched_.found.size() == 1)) return fail_kind(found);
     const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
     if (sagitta > room && !judged)
@@ -237,7 +247,9 @@ class KindComparison {
   void compare_sweeps() {
     const Move& found = matched_.last();
     if (!all_known(original_.known_start) || !all_known(found.known_start)) return;
-    const double wanted = curve_of(original_).arc->sweep, off = std::abs(sweep_ - wanted);
+    const double wanted = curve_of(original_).arc->sweep;
+    double off = std::abs(sweep_ - wanted);
+    if (may_begin_with_jump_) off = std::min(off, std::abs(sweep_behind_jump_ - wanted));
     if (off <= sweep_room || off * radius_mm() <= roundings * tolerance_mm_) return;
     fail(found, fmt::format("the arcs up to here turn by {:.1f} degrees, the arc of the original by {:.1f}",
                             sweep_ / deg, wanted / deg));
@@ -339,6 +351,8 @@ class KindComparison {
       (job_.options.max_correction + job_.path.frames[original_.frame].datum_shift.norm()) / mm;
   std::optional<Vector3> centre_mm_{};  // of the first piece of a contour's arc
   double sweep_ = 0;                    // of the arcs and chords so far
+  double sweep_behind_jump_ = 0;        // the same, if the first is a jump
+  bool may_begin_with_jump_ = false;
   std::optional<Failure> failure_;
 };
 

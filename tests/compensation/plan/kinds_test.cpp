@@ -160,6 +160,25 @@ TEST_CASE("narrow helices of many turns are verified as they were written") {
   written_and_verified(0, "G2 X0 Y0 Z-1.5 I-0.188 J0.068 P100");
 }
 
+// The force steps where the arc begins and where it ends, by as much as the correction.
+TEST_CASE("arcs whose radius is that of their correction are verified as they were written") {
+  ForceSource force;
+  force.rules = read_force_csv(
+      "# frame = machine\n# sense = on_tool\nline, fx_N, fy_N, fz_N\n"
+      "1, 300, -200, -50\n4, -300, 400, -50\n5, 300, -200, -50\n",
+      "forces.csv");
+  force.blend = 0;
+  for (const std::string radius : {"0.01", "0.02", "0.05", "0.1"})
+    for (const std::string end : {" Y" + std::to_string(2 * std::stod(radius)), std::string(" Y0 Z-1.2")}) {
+      const std::string arc = "G3 X0" + end + " I0 J" + radius;
+      CAPTURE(arc);
+      const Shop shop({.machine = load_machine(orthoglide_b),
+                       .text = "G21 G90 G17\nG0 X0 Y0 Z5\nG1 Z-1 F300\n" + arc + "\nG1 X8 Y0\nM30\n",
+                       .force = force});
+      CHECK(refusal_of(shop, compensated(shop).text) == "");
+    }
+}
+
 TEST_CASE("verify takes the digits of a corrected program from its words") {
   ForceSource force = step_profile("0, 0, 0, 0\n0.2, 120, -90, -25\n6.5, 0, 100, 0\n20, -60, 20, -50\n", 0);
   Order order{
