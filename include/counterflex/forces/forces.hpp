@@ -168,8 +168,10 @@ inline bool drills(const Move& move) {
   return makes_hole && move.known_end[0] && move.known_end[1];
 }
 
-/// The side of a step on which a wrench is read. A place within 1e-9 of a segment from a step is at the
-/// step.
+/// Fractions closer than this to the end of a segment, or to each other, are the same place.
+inline constexpr double same_fraction = 1e-9;
+
+/// The side of a step on which a wrench is read. A place within `same_fraction` of a step is at the step.
 enum class Side { before, after };
 
 /// The wrench along a toolpath, machine axes, blended. A wrench in the feed frame turns with the tangent of

@@ -15,7 +15,6 @@ namespace counterflex {
 namespace {
 
 constexpr int most_by_length = 64;  // a program of 100 kB may hold 20 000 moves across the whole machine
-constexpr double same_fraction = 1e-9;
 
 bool is_first_known(const Move& move) {
   return all_known(move.known_end) && !all_known(move.known_start) && !move.cycle;

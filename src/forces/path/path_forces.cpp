@@ -17,9 +17,6 @@ constexpr std::size_t no_run = std::numeric_limits<std::size_t>::max();
 // Steps below this part of the wrench are rounding.
 constexpr double rounding = 1e-9;
 
-// Fractions closer than this to the end of a segment, or to each other, are the same place.
-constexpr double same_fraction = 1e-9;
-
 // Segments whose ends are closer than this join (m). Shorter blends are ignored.
 constexpr double joined_m = 1e-9;
 

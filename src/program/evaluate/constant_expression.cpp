@@ -40,7 +40,7 @@ std::string dense_text(std::string_view expression, ExpressionSyntax syntax) {
     const bool parts = blank && syntax == ExpressionSyntax::parentheses && !dense.empty();
     if (parts && is_identifier_character(dense.back()) && is_identifier_character(c)) dense += ' ';
     blank = false;
-    dense += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    dense += lower(c);
   }
   return dense;
 }

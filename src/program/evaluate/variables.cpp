@@ -17,7 +17,7 @@ constexpr double highest_local = 30;
 std::string normal(std::string_view name) {
   std::string text;
   for (const char c : name)
-    if (!is_blank(c)) text += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (!is_blank(c)) text += lower(c);
   return text;
 }
 

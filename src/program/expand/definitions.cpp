@@ -216,7 +216,7 @@ bool ends_program(const Block& block) {
 std::string normal_name(std::string_view name) {
   std::string normal;
   for (const char c : name)
-    if (!is_blank(c)) normal += c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+    if (!is_blank(c)) normal += lower(c);
   if (normal.empty() || normal[0] == '<') return normal;
   if (!is_digit(normal[0])) return {};
   const std::size_t digits = std::min(normal.find_first_not_of('0'), normal.size() - 1);

@@ -20,9 +20,7 @@ std::string_view without_marks(std::string_view text) {
 
 /// Ignores case, as LinuxCNC does.
 bool begins_so(std::string_view text, std::string_view capitals) {
-  const auto same = [](char c, char capital) {
-    return (c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c) == capital;
-  };
+  const auto same = [](char c, char capital) { return upper(c) == capital; };
   return text.size() >= capitals.size() && std::equal(capitals.begin(), capitals.end(), text.begin(),
                                                       [&](char a, char b) { return same(b, a); });
 }

@@ -38,6 +38,9 @@ inline std::size_t find_either(std::string_view text, char a, char b, std::size_
 inline char upper(char c) {
   return c >= 'a' && c <= 'z' ? static_cast<char>(c - 'a' + 'A') : c;
 }
+inline char lower(char c) {
+  return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+}
 
 /// Reads from `at` to `end`. They are not adjacent members: a load of both as one pair would wait for the
 /// stores before it.

@@ -7,6 +7,7 @@
 
 #include "program/gcode/words/codes.hpp"
 #include "program/text/lex.hpp"
+#include "program/text/scanner.hpp"
 
 namespace counterflex {
 
@@ -89,7 +90,7 @@ Original lex_again(const Program& program, const Move& move, const ProgramStyle&
 }
 
 char letter_of(const Original& o, char upper) {
-  return o.lower_case ? static_cast<char>(upper - 'A' + 'a') : upper;
+  return o.lower_case ? lower(upper) : upper;
 }
 
 std::string motion_text(const Original& o, int motion) {
