@@ -157,6 +157,34 @@ TEST_CASE("the unit of length of the INI file is that of programs") {
   CHECK(units({{"h.ini", ini_mm}, {"h.hal", hexapod_pins()}}) == "mm");
 }
 
+TEST_CASE("the startup code of the INI file is read as LinuxCNC reads it") {
+  const auto units = [](const std::string& startup, bool is_inch) {
+    const std::string ini = is_inch ? mill_ini : replaced(mill_ini, "inch", "mm");
+    return read_machine(import_linuxcnc(
+                            {{"mill.ini", ini + "\n[RS274NGC]\nRS274NGC_STARTUP_CODE = " + startup + "\n"}}),
+                        "m.toml")
+        .control.units;
+  };
+  for (const char* inch_code :
+       {"G20", "g20", "g17g20g40", "G 20", "G020", "g 0 2 0", "G91 G20", "G20.0 g54"}) {
+    CAPTURE(inch_code);
+    CHECK(units(inch_code, false).empty());
+    CHECK(units(inch_code, true) == "inch");
+  }
+  for (const char* mm_code : {"G21", "g21", "G17G021 G90.1", "g2 1", "G64 P0.01 G21 G94"}) {
+    CAPTURE(mm_code);
+    CHECK(units(mm_code, true).empty());
+    CHECK(units(mm_code, false) == "mm");
+  }
+  for (const char* other : {"G17 G40 G90 (not G20)", "M64 P20", "G17 ; G20, G21", ""}) {
+    CAPTURE(other);
+    CHECK(units(other, true) == "inch");
+    CHECK(units(other, false) == "mm");
+  }
+  CHECK(units("o<init> call", false).empty());  // what it sets is not known
+  CHECK(units("G17 G[20", false).empty());
+}
+
 TEST_CASE("unrotate couples a joint with those before it, as LinuxCNC does") {
   const std::string pins = serial_pins("setp genserkins.unrotate-2 1\nsetp genserkins.unrotate-3 -2\n");
   check_poses(import_linuxcnc({{"arm.hal", pins}}), [](const std::vector<double>& q) {
@@ -236,6 +264,32 @@ TEST_CASE("home and travel of a hexapod are those of the INI file") {
   CHECK(number_sources(machine).prior == 48);
 }
 
+TEST_CASE("the orientation at home of a hexapod is that of the INI file") {
+  const auto imported = [](const std::string& home) {
+    const std::string ini =
+        "[KINS]\nKINEMATICS = genhexkins\nJOINTS = 6\n[TRAJ]\nLINEAR_UNITS = mm\nHOME = " + home + "\n";
+    return read_machine(import_linuxcnc({{"h.ini", ini}, {"h.hal", hexapod_pins()}}), "m.toml");
+  };
+  const Machine machine = imported("5 10 700 4 -6 12");
+  const Pose wanted{from_rpy(Vector3(4, -6, 12) * deg), Vector3(5, 10, 700) * mm};
+  CHECK(difference(*machine.home_X_MP, wanted).norm() < 1e-12);
+  const Model model = prepare(machine);
+  REQUIRE(model.home_status == Status::converged);
+  CHECK(difference(model.home.X_MP, wanted).norm() < 1e-9);
+  const Eigen::VectorXd rho = actuator_values(model.mechanism, model.home);
+  const std::vector<double> lengths = strut_lengths(wanted, 0);
+  for (int i = 0; i < 6; ++i)
+    CHECK(rho[i] == doctest::Approx(lengths[static_cast<std::size_t>(i)]).epsilon(1e-9));
+  CHECK(difference(*imported("0 0 700 0 0 12").home_X_MP,
+                   {from_rpy(Vector3(0, 0, 12) * deg), Vector3(0, 0, 0.7)})
+            .norm() < 1e-12);
+  for (const char* home : {"0 0 700", "0 0 700 # mm", "0 0 700 ; mm"})
+    CHECK(imported(home).home_X_MP->R == Matrix3::Identity());
+  const std::string ini = "[KINS]\nKINEMATICS = genhexkins\n[TRAJ]\nLINEAR_UNITS = mm\nHOME = 0 0 700 0 x\n";
+  CHECK(message_of({{"h.ini", ini}, {"h.hal", hexapod_pins()}}) ==
+        "h.ini:5:8: error: each of the first six numbers of [TRAJ] HOME is 'x'; it must be a finite number");
+}
+
 TEST_CASE("trivkins has the axes and the travel of the INI file") {
   const std::string text = import_linuxcnc({{"mill.ini", mill_ini}});
   const Machine machine = read_machine(text, "m.toml");
@@ -248,6 +302,23 @@ TEST_CASE("trivkins has the axes and the travel of the INI file") {
   CHECK(platform_pose(machine, {0.1, 0.2, -0.3}).p == Vector3(0.1, 0.2, -0.3));
   CHECK(prepare(machine).home_status == Status::converged);
   CHECK(text.find("axes that are left out, because trivkins does not state where they are: A.") != text.npos);
+}
+
+TEST_CASE("the travel of an axis with two joints is what both allow") {
+  const std::string both = mill_ini + "[JOINT_2]\nMIN_LIMIT = 1\nMAX_LIMIT = 15\n";
+  const Actuator y = actuators(read_machine(import_linuxcnc({{"mill.ini", both}}), "m.toml"))[1];
+  CHECK(y.min == doctest::Approx(1 * inch));
+  CHECK(y.max == doctest::Approx(15 * inch));
+  const std::string wider = mill_ini + "[JOINT_2]\nMIN_LIMIT = -5\n";
+  const Actuator same = actuators(read_machine(import_linuxcnc({{"mill.ini", wider}}), "m.toml"))[1];
+  CHECK(same.min == doctest::Approx(0));
+  CHECK(same.max == doctest::Approx(16 * inch));
+  CHECK(message_of_ini(mill_ini + "[JOINT_2]\nMIN_LIMIT = 20\nMAX_LIMIT = 36\n") ==
+        "m.ini:4:14: error: the joints 1, 2 of axis Y have no travel in common: the largest MIN_LIMIT is 20, "
+        "the least "
+        "MAX_LIMIT is 16; correct them");
+  CHECK(message_of_ini(mill_ini + "[JOINT_2]\nTYPE = ANGULAR\n") ==
+        "m.ini:21:8: error: the TYPE of joint 2, axis Y, is 'ANGULAR'; it must be LINEAR");
 }
 
 TEST_CASE("a machine without a name in the INI file is named by the file") {

@@ -9,6 +9,7 @@
 #include "counterflex/geometry/pose.hpp"
 #include "counterflex/import/import.hpp"
 #include "import/linuxcnc/kinematics.hpp"
+#include "import/serial_arm.hpp"
 #include "import/toml_text.hpp"
 
 namespace counterflex::import {
@@ -80,20 +81,22 @@ std::vector<Strut> read_struts(const LinuxCnc& source) {
   return list;
 }
 
-/// [TRAJ] HOME, the first three numbers; none if its Z is 0, which is LinuxCNC's default.
-std::optional<Vector3> stated_home(const LinuxCnc& source) {
+/// [TRAJ] HOME: X, Y and Z, and A, B and C, the roll, pitch and yaw of the platform, 0 if they are not given.
+/// None if Z is 0, as by default: the platform is not in its base.
+std::optional<FixedTransform> stated_home(const LinuxCnc& source) {
   const PlacedText* home = source.ini == nullptr ? nullptr : source.ini->find("TRAJ", "HOME");
   if (home == nullptr) return std::nullopt;
-  Vector3 p = Vector3::Zero();
+  Vector6 numbers = Vector6::Zero();
   std::string_view rest = home->text;
-  for (int k = 0; k < 3; ++k) {
+  for (int k = 0; k < 6; ++k) {
     rest.remove_prefix(std::min(rest.find_first_not_of(" \t"), rest.size()));
+    if (k >= 3 && (rest.empty() || rest.starts_with('#') || rest.starts_with(';'))) break;
     const std::size_t end = std::min(rest.find_first_of(" \t"), rest.size());
-    p[k] = read_usable(rest.substr(0, end), home->at, "each of the first three numbers of [TRAJ] HOME");
+    numbers[k] = read_usable(rest.substr(0, end), home->at, "each of the first six numbers of [TRAJ] HOME");
     rest.remove_prefix(end);
   }
-  if (p.z() == 0) return std::nullopt;
-  return Vector3(p * source.length);
+  if (numbers[2] == 0) return std::nullopt;
+  return FixedTransform{numbers.head<3>() * source.length, numbers.tail<3>() * deg};
 }
 
 /// As far from the base as the base joints are from their middle, on the side of positive z.
@@ -105,9 +108,11 @@ Vector3 assumed_home(const std::vector<Strut>& list) {
   return base - platform + Vector3(0, 0, radius);
 }
 
-std::string leg_text(std::size_t index, const Strut& strut, const Vector3& home) {
-  const Vector3 span = home + strut.platform - strut.base;
+std::string leg_text(std::size_t index, const Strut& strut, const FixedTransform& home) {
+  const Matrix3 R_MP = home.pose().R;
+  const Vector3 span = home.xyz + R_MP * strut.platform - strut.base;
   const Vector3 turn = log_so3(Eigen::Quaterniond::FromTwoVectors(Vector3::UnitZ(), span).toRotationMatrix());
+  const Vector3 turn_back = home.rpy.isZero(0) ? Vector3(-turn) : log_so3(exp_so3(-turn) * R_MP);
   std::string travel;
   if (strut.travel.min) travel += ", min_mm = " + number(*strut.travel.min / mm);
   if (strut.travel.max) travel += ", max_mm = " + number(*strut.travel.max / mm);
@@ -132,7 +137,7 @@ std::string leg_text(std::size_t index, const Strut& strut, const Vector3& home)
       "]\n",
       index + 1, list_mm(strut.base), index, list_deg(turn), travel, number(span.norm() / mm),
       is_known ? "" : "  # PLACEHOLDER: travel: the source does not state it", strut_compliance,
-      list_deg(-turn), list_mm(-strut.platform), index);
+      list_deg(turn_back), list_mm(-strut.platform), index);
 }
 
 std::string hexapod_parameters() {
@@ -159,8 +164,8 @@ std::string genhexkins_machine(const LinuxCnc& source) {
          "the strut lengths depend on the orientation of the joints (screw-lead is not 0); this is not "
          "imported");
   const std::vector<Strut> list = read_struts(source);
-  const std::optional<Vector3> stated = stated_home(source);
-  const Vector3 home = stated.value_or(assumed_home(list));
+  const std::optional<FixedTransform> stated = stated_home(source);
+  const FixedTransform home = stated ? *stated : FixedTransform{assumed_home(list)};
   std::string text = fmt::format("{}linuxcnc: genhexkins of {}\n", import_mark, file_name(source.file));
   if (source.ini == nullptr)
     text += "# PLACEHOLDER: lengths are taken to be in mm: the HAL file does not state the unit.\n";
@@ -171,14 +176,15 @@ std::string genhexkins_machine(const LinuxCnc& source) {
       "\"rz\"]\n"
       "# PLACEHOLDER: masses: the files have none. Add mass = {{ kg = ..., at_mm = [...], name = \"...\" }} "
       "to elements, and gravity_m_s2\n"
-      "\n[home]\nxyz_mm = {}{}\n"
+      "\n[home]\nxyz_mm = {}{}\n{}"
       "\n[controller]\nkinematics = \"catalogue\"  # LinuxCNC computes with these joints\n"
       "\n[tool]                                  # PLACEHOLDER: the tool's tip in the platform frame\nxyz_mm "
       "= [0, 0, 0]\n"
       "{}"
       "\n[limits]\nmax_correction_mm = 5                   # PLACEHOLDER\n",
-      toml_string(machine_name(source)), list_mm(home),
+      toml_string(machine_name(source)), list_mm(home.xyz),
       stated ? "" : "  # PLACEHOLDER: a pose in the middle of the work space: the source does not state one",
+      home.rpy.isZero(0) ? "" : fmt::format("rpy_deg = {}  # A, B, C of [TRAJ] HOME\n", list_deg(home.rpy)),
       program_text("linuxcnc", program_units(source)));
   for (std::size_t i = 0; i < struts; ++i) text += leg_text(i, list[i], home);
   return text + hexapod_parameters();

@@ -15,7 +15,8 @@ struct LinuxCnc {
 
 std::string machine_name(const LinuxCnc& source);
 
-/// Of [program]: the unit of length that the INI file states, "mm" or "inch". Empty without an INI file.
+/// Of [program]: the unit of length that the INI file states, "mm" or "inch". Empty without an INI file, and
+/// if its startup code sets the other unit or is not understood.
 std::string program_units(const LinuxCnc& source);
 
 /// `genserkins`: six rotary joints with modified Denavit-Hartenberg parameters. `unrotate` couples a joint

@@ -1,10 +1,13 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <optional>
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/import/import.hpp"
+#include "counterflex/program/overview.hpp"
+#include "counterflex/program/read_program.hpp"
 #include "import/linuxcnc/configuration.hpp"
 #include "import/linuxcnc/kinematics.hpp"
 #include "import/toml_text.hpp"
@@ -51,12 +54,33 @@ std::string machine_name(const LinuxCnc& source) {
   return name == nullptr || name->text.empty() ? file_stem(source.file) : name->text;
 }
 
+namespace {
+
+/// The unit after the startup code, before which it is `unit`: that of a move behind it. None if the code is
+/// not read, if it calls a program, or if the move's place is not known.
+std::optional<LengthUnit> unit_after(const PlacedText& startup, LengthUnit unit) {
+  ReadOptions options;
+  options.dialect = "linuxcnc";
+  options.unit = unit;
+  try {
+    const Program program = read_program(startup.text + "\nG90 G0 X1\n", startup.at.file, options);
+    const bool is_reached = !program.moves.empty() && program.moves.back().line == 2;
+    if (!is_reached || !program.moves.back().known_end[0] || first_unread_call(overview_of(program)))
+      return std::nullopt;
+    return program.moves.back().unit;
+  } catch (const InputError&) {
+    return std::nullopt;
+  }
+}
+
+}  // namespace
+
 std::string program_units(const LinuxCnc& source) {
   if (source.ini == nullptr) return "";
-  const bool is_inch = source.length == inch;
+  const LengthUnit unit = source.length == inch ? LengthUnit::inches : LengthUnit::millimetres;
   const PlacedText* startup = source.ini->find("RS274NGC", "RS274NGC_STARTUP_CODE");
-  if (startup != nullptr && startup->text.find(is_inch ? "G21" : "G20") != std::string::npos) return "";
-  return is_inch ? "inch" : "mm";
+  if (startup != nullptr && unit_after(*startup, unit) != unit) return "";
+  return unit == LengthUnit::inches ? "inch" : "mm";
 }
 
 }  // namespace import

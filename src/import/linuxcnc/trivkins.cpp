@@ -1,6 +1,9 @@
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
+#include <algorithm>
 #include <cctype>
+#include <vector>
 
 #include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -31,6 +34,35 @@ std::string letters_of(const LinuxCnc& source) {
   return letters.substr(0, static_cast<std::size_t>(*joints));
 }
 
+/// The joints of an axis: a gantry moves one axis with two.
+std::vector<std::size_t> joints_of(char letter, std::string_view letters) {
+  std::vector<std::size_t> joints;
+  for (std::size_t joint = 0; joint < letters.size(); ++joint)
+    if (letters[joint] == letter) joints.push_back(joint);
+  return joints;
+}
+
+/// The travel that all joints of the axis allow.
+Travel common_travel(const LinuxCnc& source, char letter, const std::vector<std::size_t>& joints) {
+  Travel common;
+  for (const std::size_t joint : joints) {
+    const PlacedText* type = source.ini->find(fmt::format("JOINT_{}", joint), "TYPE");
+    if (type != nullptr && type->text != "LINEAR")
+      fail(type->at, fmt::format("the TYPE of joint {}, axis {}, is '{}'; it must be LINEAR", joint, letter,
+                                 without_controls(type->text)));
+    const Travel travel = travel_of_joint(source.ini, joint, source.length);
+    if (travel.min) common.min = std::max(*travel.min, common.min.value_or(*travel.min));
+    if (travel.max) common.max = std::min(*travel.max, common.max.value_or(*travel.max));
+  }
+  if (common.min && common.max && !(*common.min + 1e-9 < *common.max))
+    fail(source.ini->find("KINS", "KINEMATICS")->at,
+         fmt::format("the joints {} of axis {} have no travel in common: the largest MIN_LIMIT is {}, the "
+                     "least MAX_LIMIT is {}; correct them",
+                     fmt::join(joints, ", "), letter, number(*common.min / source.length),
+                     number(*common.max / source.length)));
+  return common;
+}
+
 }  // namespace
 
 std::string trivkins_machine(const LinuxCnc& source) {
@@ -50,16 +82,12 @@ std::string trivkins_machine(const LinuxCnc& source) {
       left_out += std::string(left_out.empty() ? "" : ", ") + letter;
   }
   for (const char letter : std::string_view("XYZ")) {
-    const std::size_t joint = letters.find(letter);
-    if (joint == letters.npos) continue;
-    const PlacedText* type = source.ini->find(fmt::format("JOINT_{}", joint), "TYPE");
-    if (type != nullptr && type->text != "LINEAR")
-      fail(type->at, fmt::format("the TYPE of joint {}, axis {}, is '{}'; it must be LINEAR", joint, letter,
-                                 without_controls(type->text)));
+    const std::vector<std::size_t> joints = joints_of(letter, letters);
+    if (joints.empty()) continue;
     ArmJoint axis;
-    axis.name = fmt::format("{}, joint {}", letter, joint);
+    axis.name = fmt::format("{}, joint{} {}", letter, joints.size() == 1 ? "" : "s", fmt::join(joints, ", "));
     axis.joint = {JointKind::prismatic, Vector3::Unit(letter - 'X')};
-    const Travel travel = travel_of_joint(source.ini, joint, source.length);
+    const Travel travel = common_travel(source, letter, joints);
     axis.min = travel.min;
     axis.max = travel.max;
     mill.joints.push_back(std::move(axis));
