@@ -127,6 +127,21 @@ double number_in(const Cell& cell, char separator, const std::string& name) {
   return read_usable(text, cell.at, name);
 }
 
+void check_home(const Row& row, const Location& at) {
+  const auto &min = row.values[4], &max = row.values[5], &home = row.values[6];
+  const bool is_below = home && min && *home < *min - 1e-9, is_above = home && max && *home > *max + 1e-9;
+  if (!is_below && !is_above) return;
+  const bool turns = row.kind == JointKind::revolute;
+  const auto shown = [&](double value) {
+    return turns ? fmt::format("{:.9g} deg", value / deg) : fmt::format("{:.9g} mm", value / mm);
+  };
+  const std::string where = min && max
+                                ? fmt::format("outside its travel from {} to {}", shown(*min), shown(*max))
+                            : is_below ? "below its min, " + shown(*min)
+                                       : "above its max, " + shown(*max);
+  fail(at, fmt::format("the joint's home, {}, is {}", shown(*home), where));
+}
+
 Row read_row(const std::vector<Cell>& cells, const std::vector<Column>& columns, char separator) {
   if (cells.size() != columns.size())
     fail(cells.front().at,
@@ -156,6 +171,7 @@ Row read_row(const std::vector<Cell>& cells, const std::vector<Column>& columns,
   }
   if (row.values[4] && row.values[5] && !(*row.values[4] + 1e-9 < *row.values[5]))
     fail(cells.front().at, "the joint's max is not above its min");
+  check_home(row, cells.front().at);
   return row;
 }
 

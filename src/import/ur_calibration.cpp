@@ -3,9 +3,11 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <set>
 
 #include "counterflex/files/text.hpp"
+#include "counterflex/geometry/types.hpp"
 #include "counterflex/import/import.hpp"
 #include "import/serial_arm.hpp"
 #include "import/toml_text.hpp"
@@ -65,6 +67,18 @@ double number_under(const YAML::Node& link, std::string_view name, std::string_v
   return read_usable(node.Scalar(), place(node.Mark(), file), what);
 }
 
+double angle_under(const YAML::Node& link, std::string_view name, std::string_view key,
+                   const std::string& file) {
+  const double angle = number_under(link, name, key, file);
+  constexpr double turn = 2 * pi;
+  constexpr double rounding = 1e-6;
+  if (!(std::abs(angle) <= turn + rounding))
+    fail(place(link[std::string(key)].Mark(), file),
+         fmt::format("{}.{} is {:.6g}; angles of a calibration file are in rad, at most a turn ({:.4f})",
+                     name, key, angle, turn));
+  return angle;
+}
+
 FixedTransform read_link(const YAML::Node& kinematics, std::string_view name, const std::string& file) {
   const YAML::Node link = kinematics[std::string(name)];
   if (!link)
@@ -75,7 +89,7 @@ FixedTransform read_link(const YAML::Node& kinematics, std::string_view name, co
   for (int i = 0; i < 3; ++i)
     fixed.xyz[i] = number_under(link, name, keys[static_cast<std::size_t>(i)], file);
   for (int i = 0; i < 3; ++i)
-    fixed.rpy[i] = number_under(link, name, keys[static_cast<std::size_t>(i) + 3], file);
+    fixed.rpy[i] = angle_under(link, name, keys[static_cast<std::size_t>(i) + 3], file);
   fixed.comment = name;
   constexpr double longest = 5;  // m; a UR20 reaches 1.75 m
   if (!(fixed.xyz.cwiseAbs().maxCoeff() <= longest))

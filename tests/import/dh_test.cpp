@@ -164,6 +164,15 @@ TEST_CASE("bad DH tables are refused at their place") {
         "arm.csv:2:1: error: min_mm is given for a revolute joint; leave the cell empty");
   CHECK(message_of("min_deg,max_deg," + header + "10,-10,0,0,0,0\n") ==
         "arm.csv:2:1: error: the joint's max is not above its min");
+  const std::string homes = "min_deg,max_deg,home_deg," + header;
+  CHECK(message_of(homes + "-90,90,100,0,0,0,0\n") ==
+        "arm.csv:2:1: error: the joint's home, 100 deg, is outside its travel from -90 deg to 90 deg");
+  CHECK(message_of(homes + ",90,100,0,0,0,0\n") ==
+        "arm.csv:2:1: error: the joint's home, 100 deg, is above its max, 90 deg");
+  CHECK(message_of("type,min_m,home_mm," + header + "prismatic,0.1,50,0,0,0,0\n") ==
+        "arm.csv:2:1: error: the joint's home, 50 mm, is below its min, 100 mm");
+  CHECK_NOTHROW(
+      import_dh(homes + "-90,90,90,0,0,0,0\n-90,90,-90,0,90,0,0\n", "arm.csv", DhConvention::standard));
 }
 
 }  // namespace counterflex::import_dh_test

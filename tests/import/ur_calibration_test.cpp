@@ -133,6 +133,9 @@ TEST_CASE("bad calibrations are refused at their place") {
   CHECK(message_of(replaced(good, "x: -0.61199999999999999", "x: -612")) ==
         "my.yaml:17:5: error: forearm is 612 m away from the link before; lengths of a calibration file are "
         "in m, at most 5");
+  CHECK(message_of(replaced(good, "    roll: 0\n", "    roll: 89.97\n")) ==
+        "my.yaml:6:11: error: shoulder.roll is 89.97; angles of a calibration file are in rad, at most a "
+        "turn (6.2832)");
 }
 
 }  // namespace counterflex::import_ur_calibration_test
