@@ -295,6 +295,8 @@ TEST_CASE("bad URDF files are refused at their place, and the library prints not
             .starts_with("arm.urdf:19:3: error: the URDF library refuses the file: "));
   CHECK(message_of(replaced(arm, "<limit lower=\"-2.9\" upper=\"2.9\" effort=\"0\" velocity=\"1\"/>", ""))
             .starts_with("arm.urdf:9:3: error: the URDF library refuses the file: "));
+  CHECK(message_of(replaced(arm, "upper=\"2\" effort=\"0\"", "upper=\"2\"")) ==
+        "arm.urdf:14:3: error: the URDF library refuses the file: joint limit: no effort");
 }
 
 TEST_CASE("real robots of a folder have the poses of KDL") {

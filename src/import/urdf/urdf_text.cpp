@@ -123,34 +123,44 @@ void collect(UrdfText& urdf, const TiXmlElement& robot) {
   }
 }
 
-/// Keeps the first message of urdfdom instead of printing it.
-class FirstMessage : public console_bridge::OutputHandler {
+/// Keeps the messages of urdfdom instead of printing them.
+class KeptMessages : public console_bridge::OutputHandler {
  public:
-  FirstMessage() { console_bridge::useOutputHandler(this); }
-  ~FirstMessage() override { console_bridge::restorePreviousOutputHandler(); }
-  FirstMessage(const FirstMessage&) = delete;
-  FirstMessage& operator=(const FirstMessage&) = delete;
+  KeptMessages() { console_bridge::useOutputHandler(this); }
+  ~KeptMessages() override { console_bridge::restorePreviousOutputHandler(); }
+  KeptMessages(const KeptMessages&) = delete;
+  KeptMessages& operator=(const KeptMessages&) = delete;
 
   void log(const std::string& text, console_bridge::LogLevel level, const char*, int) override {
-    if (text_.empty() && level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) text_ = text;
+    if (level >= console_bridge::CONSOLE_BRIDGE_LOG_ERROR) texts_.push_back(text);
   }
-  const std::string& text() const { return text_; }
+  const std::vector<std::string>& texts() const { return texts_; }
 
  private:
-  std::string text_;
+  std::vector<std::string> texts_;
 };
 
-/// The place of the joint or link with the longest name that `message` contains.
-Location place_named_in(const std::string& message, const UrdfText& urdf) {
+/// The joint or link with the longest name that `message` has in brackets or quotes; null without one.
+const TiXmlElement* named_in(const std::string& message, const UrdfText& urdf) {
   const TiXmlElement* named = nullptr;
   std::size_t longest = 0;
   for (const auto* list : {&urdf.joints, &urdf.links})
-    for (const auto& [name, element] : *list)
-      if (name.size() > longest && message.find(name) != message.npos) {
-        longest = name.size();
-        named = element;
-      }
-  return named == nullptr ? urdf.robot() : urdf.place(*named);
+    for (const auto& [name, element] : *list) {
+      const bool is_named =
+          message.find("[" + name + "]") != message.npos || message.find("'" + name + "'") != message.npos;
+      if (!is_named || name.size() <= longest) continue;
+      longest = name.size();
+      named = element;
+    }
+  return named;
+}
+
+/// The place of the element that the first message with a name names: what is wrong in an element comes
+/// before the joint or link that has it.
+Location place_named_in(const std::vector<std::string>& messages, const UrdfText& urdf) {
+  for (const std::string& message : messages)
+    if (const TiXmlElement* named = named_in(message, urdf)) return urdf.place(*named);
+  return urdf.robot();
 }
 
 /// The link that a joint names in an element; empty if it names none, which the library refuses.
@@ -212,11 +222,12 @@ void read_urdf_text(std::string_view text, const std::string& file, UrdfText& ur
 urdf::ModelInterfaceSharedPtr parse_urdf(const UrdfText& urdf) {
   TiXmlPrinter printer;
   urdf.document.Accept(&printer);
-  const FirstMessage message;
+  const KeptMessages messages;
   const urdf::ModelInterfaceSharedPtr model = urdf::parseURDF(printer.Str());
-  if (model != nullptr && message.text().empty()) return model;
-  fail(place_named_in(message.text(), urdf),
-       "the URDF library refuses the file: " + without_controls(message.text()));
+  if (model != nullptr && messages.texts().empty()) return model;
+  const std::string first = messages.texts().empty() ? "" : messages.texts().front();
+  fail(place_named_in(messages.texts(), urdf),
+       "the URDF library refuses the file: " + without_controls(first));
 }
 
 FixedTransform origin_of(const TiXmlElement& owner) {

@@ -31,7 +31,7 @@ struct UrdfText {
 void read_urdf_text(std::string_view text, const std::string& file, UrdfText& urdf);
 
 /// The model that urdfdom builds of it. It prints nothing; its first message is thrown as `InputError`, at
-/// the element that it names.
+/// the element that it, or a message behind it, names.
 urdf::ModelInterfaceSharedPtr parse_urdf(const UrdfText& urdf);
 
 /// Of a joint or an inertial: roll, pitch and yaw as the file has them. (urdfdom keeps a quaternion, whose
