@@ -142,11 +142,10 @@ class Mill {
 
   std::string chain() const {
     const Vector3 k = stiffness();
-    std::string text =
-        "\n[[chain]]\nname = \"axes\"\nelements = [\n"
-        "  # the deflection of the whole machine at the tool tip\n";
-    for (int axis = 0; axis < 3; ++axis) text += compliance_line(axis, k[axis]);
+    std::string text = "\n[[chain]]\nname = \"axes\"\nelements = [\n";
     if (swivel_.letter != 0) text += table();
+    text += "  # the deflection of the whole machine at the tool tip\n";
+    for (int axis = 0; axis < 3; ++axis) text += compliance_line(axis, k[axis]);
     text += axis_line('X', X_) + "  { error = \"XY\" },       # squareness of X and Y\n" +
             axis_line('Y', Y_) +
             "  { error = \"YZ\" },       # squareness of Y and Z\n"

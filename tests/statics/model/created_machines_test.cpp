@@ -163,6 +163,26 @@ TEST_CASE("the stiffness at the tip of a made mill is the given one in all place
   }
 }
 
+TEST_CASE("the stiffness at the tip of a made mill is along its linear axes where the table is turned") {
+  for (const MachineKind kind : {MachineKind::table_ac, MachineKind::table_bc}) {
+    MachineFacts facts = facts_of(kind);
+    facts.tip_stiffness = Vector3(28e6, 22e6, 45e6);
+    std::string text = machine_file(facts);
+    for (const char* angle : {"home_deg = 70", "home_deg = -35"})
+      text.replace(text.find("home_deg = 0"), 12, angle);
+    const Model model = prepare(read_machine(text, "made.toml"));
+    REQUIRE(model.home_status == Status::converged);
+    const Matrix3 R_MP = model.home.X_MP.R;
+    CHECK(log_so3(R_MP).norm() > 60 * deg);
+    StaticsWork work(model.mechanism);
+    const auto C = compliance_at_tip(model, model.home, Load{}, Stage{}, work);
+    REQUIRE(C);
+    for (int axis = 0; axis < 3; ++axis)
+      CHECK(stiffness_along(*C, R_MP.col(axis)) ==
+            doctest::Approx((*facts.tip_stiffness)[axis]).epsilon(1e-9));
+  }
+}
+
 TEST_CASE("the stiffness of a made leg or drive acts at the tip") {
   for (const MachineKind kind : {MachineKind::hexapod, MachineKind::delta, MachineKind::orthoglide}) {
     MachineFacts facts = facts_of(kind);
