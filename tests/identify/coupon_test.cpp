@@ -104,6 +104,47 @@ std::string error_of(const std::string& sheet, const Machine& machine) {
 
 }  // namespace
 
+TEST_CASE("a coupon's tool plunges where it has cut, and ramps by at most 0.1 mm in 1 mm") {
+  struct Cut {
+    Vector3 from, to;
+  };
+  for (const double diameter_mm : {6.0, 10.0}) {
+    CouponRequest request = request_for_mill();
+    request.diameter_mm = diameter_mm;
+    std::vector<Cut> cuts;
+    Vector3 at = Vector3(0, 0, 100);
+    int line = 0;
+    const auto is_cut = [&](const Vector3& p) {
+      return p.z() >= request.most_mm.z() || std::any_of(cuts.begin(), cuts.end(), [&](const Cut& cut) {
+               const Vector3 way = cut.to - cut.from;
+               const double square = way.head<2>().squaredNorm();
+               const double u =
+                   square > 0 ? std::clamp((p - cut.from).head<2>().dot(way.head<2>()) / square, 0.0, 1.0)
+                              : 1;
+               const Vector3 nearest = cut.from + u * way;
+               return (nearest - p).head<2>().norm() < 1e-3 && nearest.z() <= p.z() + 1e-3;
+             });
+    };
+    const Coupon coupon = make_coupon(request);
+    for (std::string_view text = coupon.text; !text.empty();) {
+      const std::string block(text.substr(0, text.find('\n')));
+      text.remove_prefix(block.size() + 1);
+      ++line;
+      if (!block.starts_with("G0 ") && !block.starts_with("G1 ") && !block.starts_with("G3 ")) continue;
+      const Vector3 to(word(block, 'X', at.x()), word(block, 'Y', at.y()), word(block, 'Z', at.z()));
+      const double radius = -word(block, 'I', 0);
+      const double length = block.starts_with("G3") ? 2 * pi * radius : (to - at).head<2>().norm();
+      if (block[1] != '0' && at.z() - to.z() > 0.1 * length + 1e-4 && !is_cut(to)) {
+        CAPTURE(line);
+        CAPTURE(block);
+        FAIL_CHECK("a steep cut into metal");
+      }
+      if (block[1] == '1') cuts.push_back({at, to});
+      at = to;
+    }
+  }
+}
+
 TEST_CASE("a shift of the tip moves the features of a coupon, and changes no size") {
   const CutPiece piece;
   const Vector3 shift(3e-6, -5e-6, 7e-6);

@@ -186,16 +186,19 @@ class HalfWriter {
     bore(feature, in.centre, std::min(in.width, in.height) / 2 - gap * D_ - R_, true);
   }
 
-  /// A flat floor at a share of the depth.
+  /// A flat floor at a share of the depth. The finish ramps back to the beginning of the rough path.
   void step(const std::string& feature, int column, int row, double share) {
     const Cell in = cell(column, row);
     const double half = std::min(in.width / 2 - R_ - gap * D_, 2 * D_), z = text_.top() - share * depth_;
     const Place2 a{in.centre.x - half, in.centre.y}, b{in.centre.x + half, in.centre.y};
     text_.operation("rough", feature, is_corrected_);
-    rough({a, b}, z + std::min(stock_, share * depth_ / 2));
+    const double rough_z = z + std::min(stock_, share * depth_ / 2);
+    rough({a, b}, rough_z);
     text_.operation("finish", feature, is_corrected_);
-    text_.rapid_above(a);
-    text_.plunge(z);
+    static_assert(allowance / 0.5 <= steepest);
+    text_.rapid_above({a.x + R_, a.y});
+    text_.plunge(rough_z);
+    text_.line_to(a, z);
     text_.line_to({a.x + R_, a.y});
     const int line = text_.line_to({b.x - R_, b.y});
     text_.line_to(b);
