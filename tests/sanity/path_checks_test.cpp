@@ -40,6 +40,16 @@ Model elbow() {
       "elbow.toml"));
 }
 
+/// Two linear axes.
+Model plate() {
+  return prepare(
+      read_machine("format = \"counterflex-machine 1\"\ncontrolled = [\"x\", \"y\"]\n[[chain]]\nname = "
+                   "\"axes\"\nelements = [\n"
+                   "{ actuator = \"prismatic\", axis = \"x\", min_mm = 0, max_mm = 3000 },\n"
+                   "{ actuator = \"prismatic\", axis = \"y\", min_mm = 0, max_mm = 100 }]\n",
+                   "plate.toml"));
+}
+
 }  // namespace
 
 TEST_CASE("the least margin names axis, value, line and travel") {
@@ -56,11 +66,45 @@ TEST_CASE("the least margin names axis, value, line and travel") {
   const SanityCheck check = check_travel(model.mechanism, tally, {});
   CHECK(check.state == SanityState::ok);
   CHECK(check.text ==
-        "least margin 1.0 mm on axis Z, rapids included: 499.0 mm at line 4, travel -500 to 500 mm");
+        "least margin 1.0 mm on axis Z, rapids included: 499.0 mm at line 4, travel -500 to 500 mm; of "
+        "rotary axes 90.0 deg on actuator 3: 60.0 deg at line 3, travel -150 to 150 deg");
   CHECK(tally.axes()[0].largest == doctest::Approx(0.499));
   CHECK(tally.axes()[0].margin == doctest::Approx(1 * mm));
   CHECK(tally.axes()[0].line == 4);
   CHECK(tally.axes()[1].line == 3);
+}
+
+TEST_CASE("the least margin is the least in mm, not in shares of the travel") {
+  const Model model = plate();
+  TravelTally tally;
+  tally.add(model.mechanism, Eigen::Vector2d(2.97, 0.05), 2);
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, 0.008), 3);
+  CHECK(check_travel(model.mechanism, tally, {}).text ==
+        "least margin 8.0 mm on axis Y, rapids included: 8.0 mm at line 3, travel 0 to 100 mm");
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, -0.002), 4);
+  CHECK(check_travel(model.mechanism, tally, {}).text ==
+        "line 4: axis Y: -2.0 mm is outside its travel (0 to 100 mm)");
+}
+
+TEST_CASE("an end of the travel is inside of it, to the rounding of a solution") {
+  const Model model = plate();
+  TravelTally tally;
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, 0.1 + 1e-13), 4);
+  const SanityCheck at_limit = check_travel(model.mechanism, tally, {});
+  CHECK(at_limit.state == SanityState::ok);
+  CHECK(at_limit.text ==
+        "least margin 0.0 mm on axis Y, rapids included: 100.0 mm at line 4, travel 0 to 100 mm");
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, 0.1 + 1e-6), 5);
+  CHECK(check_travel(model.mechanism, tally, {}).state == SanityState::doubtful);
+}
+
+TEST_CASE("the least margin is stated with the value of its own line") {
+  const Model model = plate();
+  TravelTally tally;
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, 0.01), 3);
+  tally.add(model.mechanism, Eigen::Vector2d(1.5, 0.09), 4);  // as near to the other end
+  CHECK(check_travel(model.mechanism, tally, {}).text ==
+        "least margin 10.0 mm on axis Y, rapids included: 10.0 mm at line 3, travel 0 to 100 mm");
 }
 
 TEST_CASE("rotary axes count on over full turns") {

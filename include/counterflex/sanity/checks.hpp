@@ -64,22 +64,15 @@ SanityChecks check_magnitudes(const Machine& machine);
 // Checks of a run along its path, gathered waypoint by waypoint in memory that does not grow with it. They
 // depend on the order of the waypoints, not on where the path is cut into windows.
 
-/// The place of a path where an actuator comes nearest to an end of its travel; m or rad.
-struct LeastMargin {
-  std::size_t actuator = 0;
-  double value = 0, margin = 0;
-  int line = 0;
-};
-
 /// The values of one axis along a path, as the control shows them (m or rad).
 struct AxisValues {
   double least = HUGE_VAL, largest = -HUGE_VAL;
   double margin = HUGE_VAL;  ///< the least one to an end of its travel; infinite without a limit
-  int line = 0;              ///< where the margin is least
+  double tightest = 0;       ///< the value there
+  int line = 0;              ///< and the line of its move
 };
 
-/// The values of all axes over the commanded targets of a path, rapids and the bottoms of holes included, and
-/// the least margin.
+/// The values of all axes over the commanded targets of a path, rapids and the bottoms of holes included.
 /// Rotary axes count on over full turns.
 class TravelTally {
  public:
@@ -91,18 +84,14 @@ class TravelTally {
     if (skipped_++ == 0) first_skipped_ = line;
   }
 
-  /// None: no actuator has a limit, or nothing was added.
-  const std::optional<LeastMargin>& least() const { return tightest_; }
   const std::vector<AxisValues>& axes() const { return axes_; }  ///< empty: nothing was added
   std::size_t places() const { return places_; }
   std::size_t skipped() const { return skipped_; }  ///< moves with such places
   int first_skipped() const { return first_skipped_; }
 
  private:
-  std::optional<LeastMargin> tightest_;
   std::vector<AxisValues> axes_;
   Eigen::VectorXd last_;  ///< actuator values, counted on
-  double share_ = 0;      ///< of the travel, as `AxisPlace` has it
   std::size_t places_ = 0, skipped_ = 0;
   int first_skipped_ = 0;
 };
