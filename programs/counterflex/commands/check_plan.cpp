@@ -6,6 +6,11 @@
 #include "commands/check.hpp"
 
 namespace counterflex::cli {
+std::size_t unknown_moves(const MotionPlan& plan) {
+  return plan.corrected_cut.unknown + plan.held_cut.unknown + plan.grouped_cut.unknown +
+         plan.left_cut.unknown;
+}
+
 namespace {
 
 constexpr std::array plane_names{"XY", "XZ", "YZ"};
@@ -13,11 +18,6 @@ constexpr std::array plane_names{"XY", "XZ", "YZ"};
 std::string lines_text(const PlanRow& row) {
   return fmt::format("line{} {}{}", row.count == 1 ? "" : "s", fmt::join(row.lines, ", "),
                      row.count > row.lines.size() ? ", ..." : "");
-}
-
-std::size_t unknown_moves(const MotionPlan& plan) {
-  return plan.corrected_cut.unknown + plan.held_cut.unknown + plan.grouped_cut.unknown +
-         plan.left_cut.unknown;
 }
 
 double known_mm(const MotionPlan& plan) {

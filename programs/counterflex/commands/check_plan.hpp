@@ -1,5 +1,6 @@
 #pragma once
 /// The plan of a program as text and as JSON.
+#include <cstddef>
 #include <nlohmann/json.hpp>
 #include <string>
 
@@ -11,5 +12,8 @@ namespace counterflex::cli {
 /// of moves.
 std::string plan_text(const MotionPlan& plan);
 nlohmann::ordered_json plan_json(const MotionPlan& plan);
+
+/// Number of feed moves of unknown length.
+std::size_t unknown_moves(const MotionPlan& plan);
 
 }  // namespace counterflex::cli

@@ -21,7 +21,8 @@ constexpr double inf = std::numeric_limits<double>::infinity();
 
 /// Sums over the moves of a program; lengths in mm, program coordinates.
 struct MoveFacts {
-  std::size_t rapids = 0, feeds = 0, without_feed = 0, with_force = 0;
+  std::size_t rapids = 0, feeds = 0, cycles = 0, without_feed = 0, with_force = 0;
+  std::size_t uncounted = 0;  ///< blocks that cut by a cycle, whose length is not in that of the feed moves
   Vector3 least = Vector3::Constant(inf), most = Vector3::Constant(-inf);
   double slowest = inf, fastest = 0;  ///< mm/min
   std::vector<std::string> offsets;
@@ -34,7 +35,10 @@ void add_once(std::vector<T>& list, const T& value) {
 }
 
 void add_move(const Program& program, const Move& move, MoveFacts& facts) {
-  if (moves_tool(move)) ++(move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  const bool cuts_by_cycle = count_of_holes(move) > 0 || move.makes_hole || move.mills_at_end;
+  if (moves_tool(move))
+    ++(move.cycle || cuts_by_cycle ? facts.cycles : move.motion == Motion::feed ? facts.feeds : facts.rapids);
+  facts.uncounted += cuts_by_cycle;
   const bool whole_way = move.arc && all_known(move.known_start) && all_known(move.known_end);
   const Extent extent = whole_way ? extent_of(move) : Extent{move.end_mm, move.end_mm};
   for (std::size_t axis = 0; axis < 3; ++axis) {
@@ -64,7 +68,33 @@ struct ProgramFacts {
   MotionPlanner planner;
   bool corrected = false;
   PathEnd end;
+  std::size_t untimed = 0;  ///< feed moves of a known length or turn without a known feed or time
 };
+
+/// The length or the time of cutting: a sum, which is a lower bound if a part of it is not known.
+struct CutAmount {
+  double known = 0;
+  bool is_complete = true;
+
+  bool is_unknown() const { return !is_complete && known == 0; }
+  std::string text(std::string_view what, std::string_view unit) const {
+    if (is_unknown()) return fmt::format("unknown {}", what);
+    return fmt::format("{}{:.6g} {}", is_complete ? "" : "at least ", known, unit);
+  }
+  nlohmann::ordered_json json() const {
+    if (is_unknown()) return nullptr;
+    return known;
+  }
+};
+
+struct CutFacts {
+  CutAmount mm, s;
+};
+
+CutFacts cut_facts(const ProgramFacts& facts) {
+  const bool all_lengths = unknown_moves(facts.planner.plan()) == 0 && facts.moves.uncounted == 0;
+  return {{facts.end.s / mm, all_lengths}, {facts.end.t, all_lengths && facts.untimed == 0}};
+}
 
 ProgramFacts facts_of(ProgramReader reader) {
   ProgramFacts facts;
@@ -74,7 +104,11 @@ ProgramFacts facts_of(ProgramReader reader) {
     add_window(facts.overview, window);
     facts.planner.add(window);
     for (const Move& move : window.moves) add_move(window, move, facts.moves);
-    facts.end = build_toolpath(window, one_frame(window, {}), facts.end).end;
+    const Toolpath path = build_toolpath(window, one_frame(window, {}), facts.end);
+    for (const Segment& segment : path.segments)
+      facts.untimed += segment.cutting && (segment.s_end > segment.s_start || turn_of(segment) > 0) &&
+                       segment.t_end == segment.t_start;
+    facts.end = path.end;
   }
   return facts;
 }
@@ -131,11 +165,13 @@ std::string text_of(const ProgramFacts& facts) {
   std::string text = row("file", program.file) + row("program", language_text(program.dialect));
   text += row("units", units_text(moves));
   const bool robot = is_robot_dialect(program.dialect);
-  text += row(robot ? "statements" : "blocks",
-              fmt::format("{}, of them {} moves: {} feeds, {} rapids", program.blocks, program.moves,
-                          moves.feeds, moves.rapids));
-  text +=
-      row("cutting", fmt::format("{:.6g} mm, {:.6g} s at programmed feeds", facts.end.s / mm, facts.end.t));
+  text += row(
+      robot ? "statements" : "blocks",
+      fmt::format("{}, of them {} moves: {} feeds, {} rapids{}", program.blocks, program.moves, moves.feeds,
+                  moves.rapids, moves.cycles > 0 ? fmt::format(", {} with a cycle", moves.cycles) : ""));
+  const CutFacts cut = cut_facts(facts);
+  text += row("cutting", fmt::format("{}, {}{}", cut.mm.text("length", "mm"), cut.s.text("time", "s"),
+                                     cut.s.is_unknown() ? "" : " at programmed feeds"));
   text += row("feeds", feeds_text(moves));
   text += row("extents", extents_text(moves));
   text += row(robot ? "frames" : "offsets", offsets_text(moves));
@@ -158,12 +194,22 @@ nlohmann::ordered_json extent_json(double value) {
 nlohmann::ordered_json json_of(const ProgramFacts& facts) {
   const Overview& program = facts.overview;
   const MoveFacts& moves = facts.moves;
-  nlohmann::ordered_json json{{"file", program.file},           {"kind", "program"},
-                              {"dialect", program.dialect},     {"language", language_json(program.dialect)},
-                              {"units", units_text(moves)},     {"corrected", facts.corrected},
-                              {"blocks", program.blocks},       {"moves", program.moves},
-                              {"feeds", moves.feeds},           {"rapids", moves.rapids},
-                              {"cutting_mm", facts.end.s / mm}, {"cutting_s", facts.end.t},
+  const CutFacts cut = cut_facts(facts);
+  nlohmann::ordered_json json{{"file", program.file},
+                              {"kind", "program"},
+                              {"dialect", program.dialect},
+                              {"language", language_json(program.dialect)},
+                              {"units", units_text(moves)},
+                              {"corrected", facts.corrected},
+                              {"blocks", program.blocks},
+                              {"moves", program.moves},
+                              {"feeds", moves.feeds},
+                              {"rapids", moves.rapids},
+                              {"cycle_moves", moves.cycles},
+                              {"cutting_mm", cut.mm.json()},
+                              {"cutting_mm_is_complete", cut.mm.is_complete},
+                              {"cutting_s", cut.s.json()},
+                              {"cutting_s_is_complete", cut.s.is_complete},
                               {"offsets", moves.offsets}};
   auto& extents = json["extents_mm"] = nlohmann::ordered_json::object();
   for (int i = 0; i < 3; ++i)
