@@ -139,7 +139,8 @@ TEST_CASE("two predictions, and runs without solved waypoints, also have a concl
                  "Uncorrected, a and a are off by the same amount, by up to 500.0 µm."));
   const Comparison comparison = compare(a, nothing, "0.1.0");
   CHECK(comparison.runs[1].failure == "line 4: no equilibrium");
-  CHECK(comparison.conclusion == "There is no deviation to compare. b failed before anything was solved.");
+  CHECK(comparison.conclusion ==
+        "There is no deviation to compare. b failed: its report has no deviations to compare.");
   CHECK(contains(to_text(comparison, false), "     failed: line 4: no equilibrium\n"));
   const ReportFile partly = report_named(
       "b",

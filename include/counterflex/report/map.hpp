@@ -109,6 +109,9 @@ struct MapRange {
 };
 MapRange range_of(const WorkspaceMap& map);
 
+/// "20 outside_travel, 3 unreachable": the number of places by why they have no value. Empty without one.
+std::string unsolved_text(const WorkspaceMap& map);
+
 /// Best and worst place, and the range of each layer of the grid. At most 100 columns wide.
 std::string to_text(const WorkspaceMap& map);
 

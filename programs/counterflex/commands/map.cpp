@@ -2,6 +2,8 @@
 
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "commands/commands.hpp"
 #include "counterflex/files/file_writer.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -183,9 +185,15 @@ std::optional<ErrorKind> run_map(const Options& options, Console& console) {
   write_map(map, options);
   const MapRange range = range_of(map);
   if (range.solved > range.rigid) return std::nullopt;
+  const bool is_reached = std::any_of(map.places.begin(), map.places.end(), [](const MapPlace& place) {
+    return place.status != Status::unreachable && place.status != Status::outside_travel;
+  });
   console.error(
       range.solved > 0
           ? "error: the machine is rigid at all places of the map: give its springs in the machine file"
+      : is_reached
+          ? fmt::format("error: no place of the map has a value: {}; give {}another --box, or another --rpy",
+                        unsolved_text(map), options.map.force ? "a smaller --force, " : "")
           : "error: the machine has its tip at no place of the map: give another --box, or another --rpy");
   return ErrorKind::not_compensated;
 }

@@ -83,7 +83,7 @@ std::string conclusion_of(const Comparison& comparison, bool utf8) {
     if (const ComparedRun& run = comparison.runs[i]; !run.failure.empty())
       text += before[i]
                   ? fmt::format(" {} failed: its numbers are those of the part that was solved.", run.name)
-                  : fmt::format(" {} failed before anything was solved.", run.name);
+                  : fmt::format(" {} failed: its report has no deviations to compare.", run.name);
   const auto& differences = comparison.differences;
   if (std::any_of(differences.begin(), differences.end(),
                   [](const RunDifference& d) { return d.what == "file: program"; }))

@@ -39,13 +39,7 @@ std::string grid_text(const WorkspaceMap& map) {
 /// "1300 of 1323 places; 20 outside_travel, 3 unreachable".
 std::string solved_text(const WorkspaceMap& map, const MapRange& range) {
   std::string text = fmt::format("{} of {} places", range.solved, map.places.size());
-  for (const Status status : {Status::unreachable, Status::outside_travel, Status::singular, Status::unstable,
-                              Status::not_converged}) {
-    const auto count = std::count_if(map.places.begin(), map.places.end(),
-                                     [&](const MapPlace& place) { return place.status == status; });
-    if (count > 0)
-      text += fmt::format("{} {} {}", text.find(';') == text.npos ? ";" : ",", count, to_string(status));
-  }
+  if (const std::string unsolved = unsolved_text(map); !unsolved.empty()) text += "; " + unsolved;
   if (range.rigid > 0) text += fmt::format("; {} of the solved ones are rigid", range.rigid);
   return text;
 }
@@ -118,6 +112,17 @@ std::string program_text(const WorkspaceMap& map) {
 }
 
 }  // namespace
+
+std::string unsolved_text(const WorkspaceMap& map) {
+  std::string text;
+  for (const Status status : {Status::unreachable, Status::outside_travel, Status::singular, Status::unstable,
+                              Status::not_converged}) {
+    const auto count = std::count_if(map.places.begin(), map.places.end(),
+                                     [&](const MapPlace& place) { return place.status == status; });
+    if (count > 0) text += fmt::format("{}{} {}", text.empty() ? "" : ", ", count, to_string(status));
+  }
+  return text;
+}
 
 std::string status_text(const MapPlace& place) {
   if (place.status == Status::converged && !std::isfinite(place.value)) return "rigid";
