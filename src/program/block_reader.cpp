@@ -60,6 +60,7 @@ void BlockReader::begin_window(std::size_t read, std::optional<Move> first) {
     first->operation = 0;  // the operation before the window
     program_.moves.push_back(std::move(*first));
   }
+  program_.cutter_diameters.clear();
   program_.left_alone.clear();
   program_.counts.clear();
   program_.text.clear();
@@ -83,10 +84,12 @@ void BlockReader::take_window(Program& to) {
   to.expansion = program_.expansion;
   to.text.swap(program_.text);
   to.moves.swap(program_.moves);
+  to.cutter_diameters.swap(program_.cutter_diameters);
   to.left_alone.swap(program_.left_alone);
   to.counts.swap(program_.counts);
   program_.text.clear();
   program_.moves.clear();
+  program_.cutter_diameters.clear();
   program_.left_alone.clear();
   program_.counts.clear();
   if (!to.moves.empty()) program_.before = to.moves.back();

@@ -1,5 +1,6 @@
 #pragma once
 /// A machining program: its bytes and its moves. This module knows text and no machines.
+#include <algorithm>
 #include <array>
 #include <cstddef>
 #include <cstdint>
@@ -77,6 +78,12 @@ struct Expansion {
   std::vector<Span> unused;  ///< definitions in the text that are no longer called: their blocks do not run
 };
 
+/// From a move on, the diameter by which the control offsets contours.
+struct CutterDiameter {
+  std::size_t first_move = 0;  ///< index into Program::moves
+  std::optional<double> mm{};  ///< D of G41.1 and G42.1 of LinuxCNC; empty: that of the tool in the control
+};
+
 /// The line of the file from which line `text_line` of Program::text comes.
 int line_of_file(const Expansion& expansion, int text_line);
 
@@ -138,6 +145,7 @@ struct Program {
   std::vector<std::string> operations{""};
   /// The title of each of `operations`: the first comment after a tool change, a blank line or a rapid move.
   std::vector<std::string> operation_titles{""};
+  std::vector<CutterDiameter> cutter_diameters{};  ///< in contours of this window, sorted by move
   std::vector<LeftAlone> left_alone;
   /// Texts outside of moves that follow the number of targets or the name of the file: the end of a loop, the
   /// size of its array, the name of a data list. In the order of the text.
@@ -157,6 +165,13 @@ struct Program {
 inline const Move* move_before(const Program& program, std::size_t index) {
   if (index > 0) return &program.moves[index - 1];
   return program.before ? &*program.before : nullptr;
+}
+
+/// The diameter that the program states for a move beside a contour (mm); empty: that of the tool in the
+/// control.
+inline std::optional<double> cutter_diameter_mm(const Program& program, std::size_t m) {
+  const auto behind = std::ranges::upper_bound(program.cutter_diameters, m, {}, &CutterDiameter::first_move);
+  return behind == program.cutter_diameters.begin() ? std::nullopt : (behind - 1)->mm;
 }
 
 /// By axis, whether the program has lost its position before move `m` (machine positions, tool changes): no

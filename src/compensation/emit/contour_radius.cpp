@@ -1,11 +1,7 @@
 #include "compensation/emit/contour_radius.hpp"
 
 #include <algorithm>
-#include <cctype>
 #include <cmath>
-#include <cstdlib>
-#include <string>
-#include <string_view>
 
 #include "compensation/solve/corner_way.hpp"
 #include "counterflex/geometry/types.hpp"
@@ -142,34 +138,6 @@ void put_corner(const CornerSize& size, std::vector<ContourWay>& ways, ContourWa
   ways.push_back({.curve = *between, .side = before.side, .move = before.move});
 }
 
-// Without comments, blanks and lower case.
-std::string words_of(std::string_view text) {
-  std::string words;
-  for (std::size_t at = 0; at < text.size(); ++at) {
-    if (text[at] == '(' || text[at] == ';') {
-      at = std::min(text.find(text[at] == '(' ? ')' : '\n', at), text.size());
-      continue;
-    }
-    const auto c = static_cast<unsigned char>(text[at]);
-    if (c == '\n' || std::isspace(c) == 0) words += static_cast<char>(std::toupper(c));
-  }
-  return words;
-}
-
-// The diameter in the last block with G41.1 or G42.1, in the unit of the program. Empty for a computed one.
-std::optional<double> stated_diameter(std::string_view text) {
-  const std::string words = words_of(text);
-  const std::size_t code = std::max(words.rfind("G41.1") + 1, words.rfind("G42.1") + 1);  // npos + 1: 0
-  if (code == 0) return std::nullopt;
-  const std::size_t begin = words.rfind('\n', code) + 1, end = std::min(words.find('\n', code), words.size());
-  const std::string block = words.substr(begin, end - begin);
-  const std::size_t d = block.find('D');
-  if (d == std::string::npos) return std::nullopt;
-  char* behind = nullptr;
-  const double value = std::strtod(block.c_str() + d + 1, &behind);
-  return behind != block.c_str() + d + 1 ? std::optional(std::abs(value)) : std::nullopt;
-}
-
 // Collects the ways of one contour after the other.
 class ContourReader {
  public:
@@ -217,14 +185,9 @@ class ContourReader {
   // contour.
   void begin(std::size_t m, const ContourWay& first) {
     const std::vector<Move>& moves = job_.program.moves;
-    diameter_mm_.reset();
     if (job_.program.dialect != "linuxcnc") return;
     std::size_t a = m;
     while (a > 0 && is_known(moves[a - 1]) && stays_in_plane(moves[a - 1])) --a;
-    const std::size_t text_begin = a > 1 ? moves[a - 2].block.end : 0;
-    diameter_mm_ = stated_diameter(
-        std::string_view(job_.program.text).substr(text_begin, moves[m].block.begin - text_begin));
-    if (diameter_mm_) *diameter_mm_ *= mm_per(moves[m].unit);
     if (a == 0 || !is_known(moves[a - 1])) return;
     const ContourWay way = way_of(a - 1, first.side);
     if ((way.curve.end - first.curve.start).norm() < same_place_mm) ways_.push_back(way);
@@ -246,7 +209,8 @@ class ContourReader {
       const ContourRadius programmed = largest_radius(ways_, false), written = largest_radius(ways_, true);
       const Move& move = job_.program.moves[ways_[written.way].move];
       if (written.mm < programmed.mm - noticed_mm)
-        found_.push_back({move.line, move.tool, programmed.mm, written.mm, diameter_mm_});
+        found_.push_back({move.line, move.tool, programmed.mm, written.mm,
+                          cutter_diameter_mm(job_.program, ways_.back().move)});
     }
     ways_.clear();
     is_divided_ = false;
@@ -256,7 +220,6 @@ class ContourReader {
   const std::vector<MoveEdit>& edits_;
   std::vector<ContourWay> ways_;
   bool is_divided_ = false;
-  std::optional<double> diameter_mm_;
   std::vector<NarrowedContour> found_;
 };
 

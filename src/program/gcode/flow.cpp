@@ -313,6 +313,7 @@ void mark_differences_unknown(const Dialect& dialect, const ModalState& before, 
     now.known[2] = false;
     now.cycle.initial.reset();
   }
+  if (now.cutter_diameter_mm != before.cutter_diameter_mm) now.cutter_diameter_mm.reset();
   if (now.tool != before.tool) now.tool = 0;
   if (now.tool_chosen != before.tool_chosen) now.tool_chosen.reset();
   now.exact_stop = now.exact_stop || before.exact_stop;

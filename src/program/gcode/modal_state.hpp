@@ -122,6 +122,7 @@ struct ModalState {
   Contour contour = Contour::none;
   int group = 0;                              ///< number of the contour
   CutterSide cutter_side = CutterSide::none;  ///< of the contour, if it is in the plane X Y
+  std::optional<double> cutter_diameter_mm;   ///< D of G41.1 and G42.1; empty: of the tool, or unknown
   bool beside_contour = false;  ///< in a contour: a move across has brought the cutter to its side
 };
 

@@ -141,18 +141,39 @@ TEST_CASE("in LinuxCNC the block that approaches a contour takes a part of the f
         doctest::Approx(20.7005).epsilon(1e-5));  // its interpreter: the same
 }
 
+namespace {
+
+// The diameter of the tool in a contour whose first blocks are `cutter`, with X0.5 Y0 in the last of them.
+std::optional<double> stated_diameter(const std::string& cutter, bool evaluate = false,
+                                      const std::string& behind = "X50\n") {
+  const std::string text = "G21 G90 G17 G40 G54\nT10 M6\nG0 X0 Y22 Z50\nZ5\nG1 Z-1 F200\n" + cutter +
+                           "X0.5 Y0 F300\n" + behind +
+                           "G3 X-50 Y0 I-50 J0\nG1 X0.6\nG40 X0 Y22\nG0 Z50\nM30\n";
+  const Compensation result = compensated(Shop({.machine = leaning_gantry(1e-3),
+                                                .text = text,
+                                                .tolerance = 10 * um,
+                                                .read = {.dialect = "linuxcnc", .evaluate = evaluate}}));
+  REQUIRE(result.narrowed.size() == 1);
+  return result.narrowed[0].diameter_mm;
+}
+
+}  // namespace
+
 TEST_CASE("D of G41.1 is the diameter of the tool in a contour, where it is a number") {
-  const auto stated = [](const std::string& cutter) {
-    const std::string text = "G21 G90 G17 G40 G54\nT10 M6\nG0 X0 Y22 Z50\nZ5\nG1 Z-1 F200\n" + cutter +
-                             "X0.5 Y0 F300\nX50\nG3 X-50 Y0 I-50 J0\nG1 X0.6\nG40 X0 Y22\nG0 Z50\nM30\n";
-    const Compensation result =
-        compensated(Shop({.machine = leaning_gantry(1e-3), .text = text, .tolerance = 10 * um}));
-    REQUIRE(result.narrowed.size() == 1);
-    return result.narrowed[0].diameter_mm;
-  };
-  CHECK(stated("G41.1 D20 ") == 20.0);
-  CHECK(stated("g41.1 (D7) d 12.5 ") == 12.5);
-  CHECK(stated("D8 G41.1 ; D9\n") == 8.0);
-  CHECK(!stated("G41 D10 "));
-  CHECK(!stated("G41.1 D#<_d> "));
+  CHECK(stated_diameter("G41.1 D20 ") == 20.0);
+  CHECK(stated_diameter("g41.1 (D7) d 12.5 ") == 12.5);
+  CHECK(stated_diameter("D8 G41.1 ; D9\n") == 8.0);
+  CHECK(stated_diameter("G041.1 D8 ") == 8.0);
+  CHECK(!stated_diameter("G41 D10 "));
+  CHECK(!stated_diameter("G41.1 D#<_d> "));
+}
+
+TEST_CASE("D of G41.1 is a variable whose value is worked out") {
+  CHECK(stated_diameter("#1=12\nG41.1 D#1 ", true) == 12.0);
+  CHECK(!stated_diameter("#1=12\nG41.1 D#1 "));
+}
+
+TEST_CASE("D of G41.1 holds behind a position that is not known, and not where '/' may change it") {
+  CHECK(stated_diameter("G41.1 D20 ", false, "X20\nX#<_x>\nX30 Y0\nX50\n") == 20.0);
+  CHECK(!stated_diameter("G41.1 D20 ", false, "X20\n/G41.1 D12\nX21\nX30 Y0\nX50\n"));
 }

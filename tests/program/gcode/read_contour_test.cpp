@@ -75,3 +75,19 @@ TEST_CASE("a '/' move across behind a contour leaves G40 known") {
   for (const char* text : {"/G40 X0\nG0 Z5\nX5\n", "G40\n/G1 X0\nX5\n"})
     CHECK(any_axis(read(start + text).moves.back().fixed));
 }
+
+TEST_CASE("a contour has the diameter of G41.1, whose sign changes the side") {
+  const auto contour = [](const std::string& cutter) {
+    return read_program("G21 G90 G17 G54\nG0 X0 Y0 Z0\n" + cutter + " X5 F100\nX9\nG40 X20\n", "part.ngc",
+                        {.dialect = "linuxcnc"});
+  };
+  const Program left = contour("G1 G41.1 D10");
+  CHECK(left.moves[2].cutter_side == CutterSide::left);
+  CHECK(cutter_diameter_mm(left, 2) == 10.0);
+  CHECK(!cutter_diameter_mm(left, 0));
+  const Program right = contour("G1 G41.1 D-10");
+  CHECK(right.moves[2].cutter_side == CutterSide::right);
+  CHECK(cutter_diameter_mm(right, 2) == 10.0);
+  CHECK(cutter_diameter_mm(contour("G20 G1 G41.1 D.5"), 2) == 12.7);
+  CHECK(!cutter_diameter_mm(contour("G1 G41 D10"), 2));
+}

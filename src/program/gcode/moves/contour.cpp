@@ -1,6 +1,7 @@
 #include "program/gcode/moves/contour.hpp"
 
 #include <algorithm>
+#include <cmath>
 
 #include "program/gcode/moves/read_move.hpp"
 
@@ -32,6 +33,26 @@ void take_moves_before(Reading& r) {
     if (!may_join(moves[i])) return;
     put_into(moves[i], r.state.group);
   }
+}
+
+/// D of G41.1 and G42.1 in the block.
+const Word* stated_diameter(const Reading& r, const FoundG& cutter) {
+  const bool stated = (cutter.code->tenths % 10) != 0 && r.dialect.family == linuxcnc_family;
+  return stated ? r.sorted.word('D') : nullptr;
+}
+
+/// A negative D moves the cutter to the other side.
+CutterSide side_of(const FoundG& cutter, const Word* diameter) {
+  const bool is_left = cutter.code->tenths < 420, is_other = diameter != nullptr && diameter->value < 0;
+  return is_left != is_other ? CutterSide::left : CutterSide::right;
+}
+
+/// Notes the diameter of the tool for the last move, where it differs from that of the move before.
+void note_diameter(Reading& r) {
+  std::vector<CutterDiameter>& known = r.program.cutter_diameters;
+  const std::optional<double> last_mm = known.empty() ? std::nullopt : known.back().mm;
+  if (r.state.cutter_diameter_mm != last_mm)
+    known.push_back({r.program.moves.size() - 1, r.state.cutter_diameter_mm});
 }
 
 /// Arcs at which the cutter has arrived before, and whose end no word of the block gives: points on them do
@@ -73,8 +94,11 @@ std::size_t first_before_contour(const Program& program, std::size_t run_begin) 
 void apply_cutter(Reading& r) {
   ModalState& state = r.state;
   if (const FoundG* cutter = r.sorted.find(Action::cutter)) {
-    const CutterSide side = cutter->code->tenths < 420 ? CutterSide::left : CutterSide::right;
-    state.cutter_side = state.normal == 2 ? side : CutterSide::none;
+    const Word* diameter = stated_diameter(r, *cutter);
+    state.cutter_side = state.normal == 2 ? side_of(*cutter, diameter) : CutterSide::none;
+    state.cutter_diameter_mm.reset();
+    if (diameter != nullptr && diameter->literal)
+      state.cutter_diameter_mm = std::abs(length_mm(r, *diameter));
     state.beside_contour = false;
     if (state.contour != Contour::inside) {
       state.group = r.groups + 1;
@@ -90,6 +114,7 @@ void apply_cutter(Reading& r) {
 void join_contour(Reading& r) {
   ModalState& state = r.state;
   if (state.contour == Contour::none || !why_not_followed(r).empty()) return;
+  note_diameter(r);
   Move& move = r.program.moves.back();
   const bool outside = state.contour != Contour::inside;
   const bool takes_off = state.contour == Contour::taking_off &&
