@@ -168,9 +168,40 @@ TEST_CASE("the length of the tool before is a warning where the next tool cuts")
   REQUIRE(kept.size() == 1);
   CHECK(kept[0].line == 8);
   CHECK(kept[0].what.starts_with("H1 (80 mm) acts while T2 (120 mm) is in the spindle"));
+  CHECK(remarks_with_lengths(first + "T2 M6\nG98 G81 X1 Z-3 R1\n").size() == 1);
   CHECK(remarks_with_lengths(first + "T2 M6\nG0 X1\nG43 H2\nG1 Z0\n").empty());
   CHECK(remarks_with_lengths(first + "G53 G0 Z0\nT2 M6\nG1 X9\nG0 G43 H2 Z9\nG1 Z0\n").empty());
   CHECK(remarks_with_lengths(first + "T2\nG43 H2\nM6\nG1 Z0\n").empty());
+}
+
+TEST_CASE("a cut without a tool length is a warning where the program uses G43, once for each tool") {
+  const std::string cut = "G0 X0 Y0 Z9\nG1 Z0 F100\nX5\nX6\n", with_length = "T2 M6\nG43 H2\n" + cut;
+  const auto behind = remarks_with_lengths("G21 " + with_length + "G49\nT1 M6\n" + cut + "G49\n" + cut);
+  REQUIRE(behind.size() == 1);
+  CHECK(behind[0].line == 10);
+  CHECK(behind[0].what ==
+        "T1 (80 mm) cuts where the program applies no tool length (G49, or before the first G43); the tip of "
+        "T1 is used: see that the work offset includes the length of T1, or program it (G43)");
+  const auto before = remarks_with_lengths("G21 T1 M6\n" + cut + with_length + "G49\nT2 M6\n" + cut);
+  REQUIRE(before.size() == 2);
+  CHECK(before[0].line == 3);
+  CHECK(before[0].what.starts_with("T1 (80 mm) cuts where the program applies no tool length"));
+  CHECK(before[1].line == 15);
+  CHECK(before[1].what.starts_with("T2 (120 mm) cuts where"));
+  const auto hole =
+      remarks_with_lengths("G21 " + with_length + "G49\nT1 M6\nG0 X0 Y0 Z9\nG98 G81 X1 Z-3 R1\n");
+  REQUIRE(hole.size() == 1);
+  CHECK(hole[0].what.starts_with("T1 (80 mm) cuts where"));
+}
+
+TEST_CASE("a tool length that acts, that is 0, or that no block uses is no warning about cuts without one") {
+  const std::string cut = "G0 X0 Y0 Z9\nG1 Z0 F100\nX5\nX6\n", with_length = "T2 M6\nG43 H2\n" + cut;
+  CHECK(remarks_with_lengths("G21 T1 M6\n" + cut + "G49\nT2 M6\n" + cut).empty());
+  CHECK(remarks_with_lengths("G21 G49 " + with_length + "G49\nT1 M6\nG43 H1\n" + cut).empty());
+  CHECK(remarks_with_lengths("G21 " + with_length + "G49\nG0 Z9\nT1 M6\nG0 X1\n").empty());
+  ReadOptions options;
+  options.tool_lengths_mm = {{1, 0.0}, {2, 120.0}};
+  CHECK(read_program("G21 T1 M6\n" + cut + with_length, "p.ngc", options).remarks.empty());
 }
 
 TEST_CASE("a remark about an unknown length names the tip that is used") {

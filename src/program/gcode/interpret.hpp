@@ -74,9 +74,11 @@ struct Reading {
   std::optional<CornerSize> after_corner{};  ///< corner between the last move and the next one
   /// A variable or a computed G10 may have changed tool lengths: those in the options are no longer valid.
   bool lengths_set = false;
-  bool after_subprogram = false;  ///< after M99 of a subprogram: another program may follow
-  bool ended = false;             ///< M2 or M30 was read
-  int force_line = 0;             ///< line of the last comment (FORCE ...)
+  bool uses_tool_length = false;                 ///< G43, G44 or an H of its own was read
+  std::map<long, int> cuts_without_tool_length;  ///< by tool, the line of the first one
+  bool after_subprogram = false;                 ///< after M99 of a subprogram: another program may follow
+  bool ended = false;                            ///< M2 or M30 was read
+  int force_line = 0;                            ///< line of the last comment (FORCE ...)
 
   bool relative() const { return block_relative.value_or(state.relative); }
   bool in_body() const { return body.jumps || !body.open.empty(); }

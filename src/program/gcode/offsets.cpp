@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <utility>
 
 #include "program/evaluate/variables.hpp"
 #include "program/gcode/frames.hpp"
@@ -280,6 +281,7 @@ void apply_tool_length(const Block& block, Reading& r) {
   if (!number || number != state.tool_length || changes) state.cycle.initial.reset();
   state.tool_length = number;
   state.tool_length_mm = length_mm;
+  if (!off && !std::exchange(r.uses_tool_length, true)) remark_cuts_before_length(r);
   if (!length_mm) remark_tool_length(block, r);
   const bool is_of_next_tool =
       number && r.state.tool_chosen && *number == static_cast<double>(*r.state.tool_chosen);

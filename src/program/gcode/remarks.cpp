@@ -73,6 +73,12 @@ std::optional<double> known_length(const Reading& reading, long tool) {
   return found->second;
 }
 
+/// "80 mm", of the tool with this number.
+std::string length_in_words(const Reading& reading, long tool) {
+  const auto length = known_length(reading, tool);
+  return length ? fmt::format("{:.6g} mm", *length) : std::string("length not known");
+}
+
 /// The tip at which moves with this tool are computed.
 std::string tip_of(const Reading& reading, long tool) {
   return known_length(reading, tool) ? fmt::format("the tip of T{}", tool) : "the tip of [tool]";
@@ -156,15 +162,43 @@ bool is_other_length(const Reading& reading) {
 void remark_other_length(int line, Reading& reading) {
   if (!is_other_length(reading)) return;
   const long number = static_cast<long>(*reading.state.tool_length), tool = reading.state.tool;
-  const auto in_words = [&](long of) {
-    const auto length = known_length(reading, of);
-    return length ? fmt::format("{:.6g} mm", *length) : std::string("length not known");
-  };
-  add_remark(
-      reading.program, line,
-      fmt::format("H{} ({}) acts while T{} ({}) is in the spindle; {} is used: see that offset {} of "
-                  "the control holds the length of T{}, or program H{}",
-                  number, in_words(number), tool, in_words(tool), tip_of(reading, tool), number, tool, tool));
+  add_remark(reading.program, line,
+             fmt::format("H{} ({}) acts while T{} ({}) is in the spindle; {} is used: see that offset {} of "
+                         "the control holds the length of T{}, or program H{}",
+                         number, length_in_words(reading, number), tool, length_in_words(reading, tool),
+                         tip_of(reading, tool), number, tool, tool));
+}
+
+namespace {
+
+/// G49, H0 of a known length of 0, or before the first tool length.
+bool acts_no_length(const Reading& reading) {
+  const ModalState& state = reading.state;
+  if (reading.dialect.sinumerik_words) return false;
+  if (!state.tool_length) return !reading.uses_tool_length;
+  return *state.tool_length == 0 && state.tool_length_mm == 0.0;
+}
+
+void remark_without_length(int line, long tool, Reading& reading) {
+  add_remark(reading.program, line,
+             fmt::format("T{} ({}) cuts where the program applies no tool length (G49, or before the first "
+                         "G43); {} is used: see that the work offset includes the length of T{}, or program "
+                         "it (G43)",
+                         tool, length_in_words(reading, tool), tip_of(reading, tool), tool));
+}
+
+}  // namespace
+
+void remark_cut_without_length(int line, Reading& reading) {
+  const long tool = reading.state.tool;
+  if (tool <= 0 || !acts_no_length(reading) || known_length(reading, tool) == 0.0) return;
+  const bool is_first = reading.cuts_without_tool_length.try_emplace(tool, line).second;
+  if (is_first && reading.uses_tool_length) remark_without_length(line, tool, reading);
+}
+
+void remark_cuts_before_length(Reading& reading) {
+  for (const auto& [tool, line] : reading.cuts_without_tool_length)
+    remark_without_length(line, tool, reading);
 }
 
 void remark_named_tool(const Block& block, Reading& reading) {

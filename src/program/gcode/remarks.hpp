@@ -44,6 +44,13 @@ bool is_other_length(const Reading& reading);
 /// A warning in `line` if that is so.
 void remark_other_length(int line, Reading& reading);
 
+/// The tool cuts in `line`: a warning if no tool length acts there and another one acts elsewhere in the
+/// program, before or behind it. Once for each tool.
+void remark_cut_without_length(int line, Reading& reading);
+
+/// The first block with a tool length: the warnings about the cuts before it.
+void remark_cuts_before_length(Reading& reading);
+
 /// The tool of T has no number.
 void remark_named_tool(const Block& block, Reading& reading);
 

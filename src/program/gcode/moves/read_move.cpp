@@ -333,7 +333,8 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.has_tool_length = has_tool_length(r);
   move.tool_in_spindle = r.state.tool > 0;
   move.tool_is_chosen = r.state.tool_chosen == r.state.tool;
-  if (motion != Motion::rapid && r.state.known[2]) remark_other_length(block.line, r);
+  const bool cuts = motion != Motion::rapid || r.state.motion == MotionMode::cycle;
+  if (cuts && r.state.known[2]) remark_other_length(block.line, r), remark_cut_without_length(block.line, r);
   return move;
 }
 
