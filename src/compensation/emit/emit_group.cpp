@@ -135,17 +135,26 @@ Vector3 Emitter::shifted_centre(const Move& move, const Vector3& shift) const {
 
 // The contour is corrected and judged where it is programmed. The tool's centre is beside it, by a radius
 // that the control knows, where the correction is another one. By how much it changes there beyond the motion
-// of the group, for the segments `begin` to `end`; empty if that is little for each usual radius.
+// of the group, for the segments `begin` to `end`; empty if that is little for the radius that the program
+// states, or for each usual one.
 std::string Emitter::words_beside(std::size_t begin, std::size_t end) {
-  constexpr double beside_mm = 10, most_radius_mm = 50;
+  constexpr double unit_radius_mm = 10, most_radius_mm = 50;
+  struct PlaceBeside {
+    std::size_t segment;
+    const CurveNode* node;
+    std::optional<double> radius_mm;  // that the program states
+  };
   std::vector<TargetRequest> requests;
-  std::vector<std::pair<std::size_t, const CurveNode*>> places;
+  std::vector<PlaceBeside> places;
   ForceCursor cursor;
   for (std::size_t s = begin; s < end; ++s) {
     const Segment& segment = job_.path.segments[s];
     const std::vector<CurveNode>& nodes = plan_.segments[s].group;
     const bool is_beside = job_.program.moves[segment.move].cutter_side != CutterSide::none;
     if (!segment.cutting || !is_beside || nodes.empty()) continue;
+    std::optional<double> radius_mm = cutter_diameter_mm(job_.program, segment.move);
+    if (radius_mm) *radius_mm /= 2;
+    const double beside_mm = radius_mm.value_or(unit_radius_mm);
     for (const CurveNode* node : {&nodes.front(), &nodes[nodes.size() / 2], &nodes.back()}) {
       const Side side = node == &nodes.back() ? Side::before : Side::after;
       const Vector3 p =
@@ -153,26 +162,37 @@ std::string Emitter::words_beside(std::size_t begin, std::size_t end) {
       requests.push_back({&model_of(job_, segment), p, job_.forces.at(s, node->u, side, cursor),
                           orientation_at(segment, node->u),
                           directions_at(job_, segment.move, node->u, side)});
-      places.push_back({s, node});
+      places.push_back({s, node, radius_mm});
     }
   }
   std::vector<TargetAnswer> answers(requests.size());
   solver_.targets(requests, answers, StopAt::end);
-  double largest_mm = 0;
+  double usual_mm = 0, stated_mm = 0, stated_radius_mm = 0;
   for (std::size_t i = 0; i < places.size(); ++i) {
-    const auto& [s, node] = places[i];
+    const auto& [s, node, radius_mm] = places[i];
     const Move& move = job_.program.moves[job_.path.segments[s].move];
     if (answers[i].status != Status::converged) continue;
-    const Vector3 away_W = frame(move).X_MW.R.transpose() * away_from_contour(job_, s, node->u);
+    const Vector3 beside = radius_mm.value_or(unit_radius_mm) * frame(move).X_MW.R.transpose() *
+                           away_from_contour(job_, s, node->u);
     const Vector3 change =
         shift_mm(move, answers[i].target - requests[i].p_MT) - shift_mm(move, shift_of(node->c));
-    largest_mm = std::max(largest_mm, (change - turned(group_motion_->turn, beside_mm * away_W)).norm());
+    const double miss_mm = (change - turned(group_motion_->turn, beside)).norm();
+    if (!radius_mm)
+      usual_mm = std::max(usual_mm, miss_mm);
+    else if (miss_mm > stated_mm)
+      stated_mm = miss_mm, stated_radius_mm = *radius_mm;
   }
-  if (largest_mm * most_radius_mm / beside_mm * mm <= job_.options.tolerance) return {};
-  return fmt::format(
-      "; with the tool's radius in D the tool's centre misses by up to {:.4f} mm more for each {:g} mm of "
-      "the radius",
-      largest_mm, beside_mm);
+  std::string words;
+  if (stated_mm * mm > small_share * job_.options.tolerance)
+    words =
+        fmt::format("; the tool's centre is {:g} mm beside the contour and misses by up to {:.4f} mm more",
+                    stated_radius_mm, stated_mm);
+  if (usual_mm * most_radius_mm / unit_radius_mm * mm > job_.options.tolerance)
+    words += fmt::format(
+        "; with the tool's radius in D the tool's centre misses by up to {:.4f} mm more for each {:g} mm of "
+        "the radius",
+        usual_mm, unit_radius_mm);
+  return words;
 }
 
 // One shift, and one turn about Z where that leaves less than half as much; nothing where no move of the

@@ -229,6 +229,17 @@ TEST_CASE("the list has what the centre of a contour's tool misses beside the co
   CHECK(why(rigid_gantry("0, 0, 0", 0, 0, 2e-3)).find("radius") == std::string::npos);  // the contour turns
 }
 
+TEST_CASE("where the program states the radius, the list has what the tool's centre misses at that radius") {
+  const auto why = [](const std::string& cutter) {
+    std::string text = contour;
+    text.replace(text.find("G41 D1 "), 7, cutter + " ");
+    return compensated(Shop({.machine = rigid_gantry("0, 0, 0", 1e-3), .text = text})).left_alone.at(0).why;
+  };
+  CHECK(why("G41.1 D12")
+            .ends_with("; the tool's centre is 6 mm beside the contour and misses by up to 0.0060 mm more"));
+  CHECK(why("G41.1 D.8").find("centre") == std::string::npos);  // 0.4 µm; the tolerance is 5 µm
+}
+
 TEST_CASE("what remains of a contour's corrections counts its plunge from the start, and no shift is -0") {
   const Shop shop({.machine = rigid_gantry("0, 0, 0", 0, 1e-3), .text = contour});
   const std::string why = compensated(shop).left_alone.at(0).why;
