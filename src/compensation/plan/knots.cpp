@@ -138,7 +138,9 @@ double room_for_knots(const Job& job, const Segment& segment) {
 
 std::optional<double> room_between_points(const Job& job, const Segment& segment, double gain) {
   const double rounding = rounding_allowance(job.program.moves[segment.move], job.options.write);
-  const double room = job.options.tolerance / gain - rounding;
+  // The sampled correction may miss the corners of knees.
+  const double off = model_of(job, segment).mechanism.has_knees ? curve_share * job.options.tolerance : 0;
+  const double room = job.options.tolerance / gain - rounding - off;
   if (room < curve_share * job.options.tolerance) return std::nullopt;
   return room;
 }

@@ -46,6 +46,14 @@ class CorrectionCurve {
     return polynomial_at(after == intervals_.end() ? intervals_.back() : *after, u);
   }
 
+  /// The fractions of its nodes: as close as it bends.
+  std::vector<double> nodes() const {
+    std::vector<double> fractions;
+    for (const CurveInterval& interval : intervals_)
+      for (const CurveNode& node : interval) fractions.push_back(node.u);
+    return fractions;
+  }
+
   double begin() const { return intervals_.front().front().u; }
   double end() const { return intervals_.back().back().u; }
   void add(CurveInterval interval) { intervals_.push_back(std::move(interval)); }

@@ -1,5 +1,5 @@
 // Long moves on the Orthoglide: few points, and a tip that stays on the path between them.
-#include "compensation/support/judge.hpp"
+#include "compensation/support/gantry.hpp"
 
 using namespace counterflex;
 using namespace counterflex::test;
@@ -140,50 +140,21 @@ TEST_CASE("an inch program is corrected in inches") {
     CHECK(move.unit == LengthUnit::inches);
 }
 
-namespace {
-
-/// Slides X, Y, Z; `x` and `head` are elements of X and of the head.
-Machine slides(const std::string& definitions, const std::string& x, const std::string& head) {
-  return read_machine(definitions + R"([[chain]]
-name = "axes"
-elements = [
-  { actuator = "prismatic", axis = "x", min_mm = -1000, max_mm = 1000)" +
-                          x + R"( },
-  { actuator = "prismatic", axis = "y", min_mm = -1000, max_mm = 1000 },
-  { actuator = "prismatic", axis = "z", min_mm = -1000, max_mm = 1000 },
-)" + head + "]\n",
-                      "slides.toml");
-}
-
-const std::string head = "format = \"counterflex-machine 1\"\ncontrolled = [\"x\", \"y\", \"z\"]\n";
-
-}  // namespace
-
 // Between two positions a table goes from one side of its chord to the other, and so does the deflection of a
 // joint with a knee while the force turns round: the middle is on the chord.
 TEST_CASE("a line whose correction crosses its chord in the middle is followed on both sides") {
   const std::string table =
-      head + "[error_tables.x]\npositions_mm = [-50, 100, 105, 300]\nEYX_um = [-60, -60, 60, 60]\n";
-  const std::string knee =
-      R"(  { compliance = "prismatic", axis = "x", stiffness_N_per_m = 5e6, knee_N = 100, stiffness_above_N_per_m = 5e7 },
-)";
-  const ForceSource linear = [] {
-    ForceSource source;
-    source.rules = read_force_csv(
-        "# frame = machine\n# sense = on_tool\n# interpolation = linear\ns_mm, fx_N, fy_N, "
-        "fz_N\n0,-300,0,0\n200,300,0,0\n",
-        "forces.csv");
-    source.blend = 2e-3;
-    return source;
-  }();
+      "[error_tables.x]\npositions_mm = [-50, 100, 105, 300]\nEYX_um = [-60, -60, 60, 60]\n";
+  const std::string knee = knee_along('x', 5e6, 100, 5e7);
+  const ForceSource linear = linear_profile("0,-300,0,0\n200,300,0,0\n", 2e-3);
   const Order orders[] = {{.machine = slides(table, ", error_table = \"x\"", ""),
                            .text = "G21 G90 G17\nG0 X100 Y0 Z0\nG1 X105 F500\nY5\nM30\n"},
                           {.machine = slides(table, ", error_table = \"x\"", ""),
                            .text = "G21 G90 G17\nG0 X100.1 Y0 Z0\nG1 X104.9 F500\nM30\n"},
-                          {.machine = slides(head, "", knee),
+                          {.machine = slides("", "", knee),
                            .text = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 Y200 F500\nM30\n",
                            .force = linear},
-                          {.machine = slides(head, "", knee),
+                          {.machine = slides("", "", knee),
                            .text = "G21 G90 G17\nG0 X0 Y0 Z0\nG1 Y50 F500\nY0\nY50\nM30\n",
                            .force = step_profile("0,-300,0,0\n50,300,0,0\n100,-300,0,0\n", 2e-3)}};
   for (const Order& order : orders) {
@@ -195,9 +166,28 @@ TEST_CASE("a line whose correction crosses its chord in the middle is followed o
   }
 }
 
+// Two knots that are as far apart as the tolerance allows have the corner between them.
+TEST_CASE("a line along which the load of a joint passes its knee is followed at the corner, too") {
+  for (const double share : {0.03, 0.45, 0.55, 0.65, 0.95})
+    for (const double length : {4.0, 10.0, 20.0, 40.0})
+      for (const double part : {0.985, 0.96, 0.93}) {
+        CAPTURE(share);
+        CAPTURE(length);
+        CAPTURE(part);
+        const double height = 200 * share / 1e7 * (1 - share);  // of the corner above the chord
+        const Shop shop({.machine = slides("", "", knee_along('y', 1e7, 200 * share, 1e9)),
+                         .text = fmt::format("G21 G90 G17\nG0 X0 Y0 Z0\nG1 X{} F500\nM30\n", length),
+                         .force = linear_profile(fmt::format("0,0,0,0\n{},0,200,0\n", length), 0),
+                         .tolerance = part * height,
+                         .decimals = 5});
+        const Compensation result = compensated(shop);
+        CHECK(dense_miss(shop, result, 999).size <= 1.0001 * shop.options.tolerance);
+      }
+}
+
 TEST_CASE("the deviation before is that at the positions of a table") {
-  const Shop shop({.machine = slides(head + "[error_tables.x]\npositions_mm = [0, 189, 190, 191, 192, 400]\n"
-                                            "EYX_um = [0, 0, 0, 50, 0, 0]\n",
+  const Shop shop({.machine = slides("[error_tables.x]\npositions_mm = [0, 189, 190, 191, 192, 400]\n"
+                                     "EYX_um = [0, 0, 0, 50, 0, 0]\n",
                                      ", error_table = \"x\"", ""),
                    .text = "G21 G90 G17\nG0 X0.7 Y0 Z0\nG1 X211.5 F500\nM30\n"});
   const ForwardRun run = solve_pieces(shop.job(), original_pieces(shop.job()), {.inside = false});

@@ -86,17 +86,26 @@ TEST_CASE("a spike inside one of many short blocks is found") {
 TEST_CASE("a hump of the force between the samples of a long block is found by closer samples") {
   // Places are at 10 and 15 mm, the middle between them at 12.5 mm. The mean over 2 mm is largest at 11.25
   // mm.
-  ForceSource force;
-  force.rules = read_force_csv(
-      "# frame = machine\n# sense = on_tool\n# interpolation = linear\ns_mm, fx_N, fy_N, fz_N\n"
-      "0,10,0,0\n9.75,10,0,0\n11.25,310,0,0\n12.75,10,0,0\n151,10,0,0\n",
-      "forces.csv");
-  force.blend = 2e-3;
+  const ForceSource force =
+      linear_profile("0,10,0,0\n9.75,10,0,0\n11.25,310,0,0\n12.75,10,0,0\n151,10,0,0\n", 2e-3);
   const Shop shop({.machine = yielding_gantry(), .text = blocks(1, 150), .force = force});
   const std::vector<Piece> pieces = right_at_ends(shop);
   const double largest = dense(shop, pieces, 3000);
   CHECK(largest > 15e-6);
   CHECK(inside_of(shop, pieces) > 0.9 * largest);
+}
+
+TEST_CASE("the corner of the deviation where the load of a joint passes its knee is found") {
+  const ForceSource force = linear_profile("0,0,0,0\n1,0,0,0\n5,0,200,0\n", 0);
+  for (const double knee_N : {6, 30, 71, 110}) {
+    CAPTURE(knee_N);
+    const Shop shop(
+        {.machine = slides("", "", knee_along('y', 3e6, knee_N, 1e9)), .text = blocks(1, 4), .force = force});
+    const std::vector<Piece> pieces = right_at_ends(shop);
+    const double largest = dense(shop, pieces, 3999);
+    CHECK(largest > 1.7e-6);
+    CHECK(inside_of(shop, pieces) > 0.99 * largest);
+  }
 }
 
 TEST_CASE(

@@ -46,6 +46,28 @@ inline Machine yielding_gantry() {
   return machine;
 }
 
+/// Slides X, Y, Z; `x` are keys of X, `head` is an element behind Z, `definitions` are tables of the file.
+inline Machine slides(const std::string& definitions, const std::string& x, const std::string& head) {
+  return read_machine("format = \"counterflex-machine 1\"\ncontrolled = [\"x\", \"y\", \"z\"]\n" +
+                          definitions + R"([[chain]]
+name = "axes"
+elements = [
+  { actuator = "prismatic", axis = "x", min_mm = -1000, max_mm = 1000)" +
+                          x + R"( },
+  { actuator = "prismatic", axis = "y", min_mm = -1000, max_mm = 1000 },
+  { actuator = "prismatic", axis = "z", min_mm = -1000, max_mm = 1000 },
+)" + head + "]\n",
+                      "slides.toml");
+}
+
+/// A joint behind a head whose stiffness (N/m) is another one above a load.
+inline std::string knee_along(char axis, double below, double knee_N, double above) {
+  return fmt::format(
+      "  {{ compliance = \"prismatic\", axis = \"{}\", stiffness_N_per_m = {}, knee_N = {}, "
+      "stiffness_above_N_per_m = {} }},\n",
+      axis, below, knee_N, above);
+}
+
 /// What the displaced gantry's programs are shifted by (mm).
 inline const Vector3 shift_mm(-0.5, 0.25, -0.125);
 

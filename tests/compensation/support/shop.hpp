@@ -113,12 +113,21 @@ inline ForceSource constant_force(const Vector6& F, double blend = 2e-3) {
   return source;
 }
 
-inline ForceSource step_profile(const std::string& rows, double blend) {
+inline ForceSource profile_of(const std::string& header, const std::string& rows, double blend) {
   ForceSource source;
-  source.rules =
-      read_force_csv("# frame = machine\n# sense = on_tool\ns_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
+  source.rules = read_force_csv(
+      "# frame = machine\n# sense = on_tool\n" + header + "s_mm, fx_N, fy_N, fz_N\n" + rows, "forces.csv");
   source.blend = blend;
   return source;
+}
+
+inline ForceSource step_profile(const std::string& rows, double blend) {
+  return profile_of("", rows, blend);
+}
+
+/// The force changes evenly between rows.
+inline ForceSource linear_profile(const std::string& rows, double blend) {
+  return profile_of("# interpolation = linear\n", rows, blend);
 }
 
 /// The run's result, which must be without failure.
