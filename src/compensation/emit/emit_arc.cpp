@@ -53,6 +53,7 @@ ArcTask Emitter::arc_task(const Segment& segment, const PlannedSegment& planned,
           .begin = stretch.begin(),
           .end = stretch.end(),
           .corners = job_.forces.breaks(index_of(segment)),
+          .waves = may_wave(model_of(job_, segment).mechanism) ? stretch.nodes() : std::vector<double>{},
           .tolerance_mm = (1 - curve_share) * job_.options.tolerance / planned.gain / mm,
           .chord_room_mm = room_between_points(job_, segment, planned.gain).value_or(0) / mm};
 }

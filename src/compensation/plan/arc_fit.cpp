@@ -3,6 +3,7 @@
 #include <Eigen/Geometry>
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 #include <numbers>
 
@@ -56,6 +57,14 @@ std::vector<Sample> samples_of(const ArcTask& task, double u0, double u1) {
   return all;
 }
 
+// Pieces are also judged there, but not fitted there: they are close to each other at some places.
+std::vector<Sample> waves_of(const ArcTask& task, double u0, double u1) {
+  std::vector<Sample> all;
+  for (const double wave : task.waves)
+    if (wave > u0 && wave < u1) all.push_back({(wave - u0) / (u1 - u0), task.commanded(wave)});
+  return all;
+}
+
 // Two axes that span the plane, in any order.
 std::array<Eigen::Index, 2> plane_of(const Move& move) {
   return {(move.arc->normal + 1) % 3, (move.arc->normal + 2) % 3};
@@ -106,7 +115,9 @@ class PieceFit {
     kept_ = start_ + task.source.arc->centre - point_at(task.source, piece.u0);
     const Vector3 read_end =
         as_written(task.move, piece.from, {end_, kept_}, piece.u1 == 1, task.options).end;
-    samples_ = samples_of(task, fraction_at(task, piece.u0, start_), fraction_at(task, piece.u1, read_end));
+    const double u0 = fraction_at(task, piece.u0, start_), u1 = fraction_at(task, piece.u1, read_end);
+    samples_ = samples_of(task, u0, u1);
+    waves_ = waves_of(task, u0, u1);
   }
 
   FittedArc run() const {
@@ -134,14 +145,18 @@ class PieceFit {
     FittedArc fit{.via = {end, centre}, .read = {}};
     fit.read = as_written(task_.move, piece_.from, fit.via, piece_.u1 == 1, task_.options);
     fit.sound = is_sound(task_, piece_, fit.read);
-    fit.miss_mm = fit.read.arc ? miss_of(fit.read, samples_) : std::numeric_limits<double>::infinity();
+    fit.miss_mm = fit.read.arc ? std::max(miss_of(fit.read, samples_), miss_of(fit.read, waves_))
+                               : std::numeric_limits<double>::infinity();
     return fit;
   }
 
   // For an arc from whose end `end` a line leads to the end of the move.
   std::vector<Sample> samples_to(const Vector3& end) const {
-    const double u = fraction_along(task_, piece_.u1, end);
-    return samples_of(task_, fraction_at(task_, piece_.u0, start_), std::min(u, piece_.u1));
+    const double u0 = fraction_at(task_, piece_.u0, start_),
+                 u1 = std::min(fraction_along(task_, piece_.u1, end), piece_.u1);
+    std::vector<Sample> all = samples_of(task_, u0, u1);
+    std::ranges::move(waves_of(task_, u0, u1), std::back_inserter(all));
+    return all;
   }
 
   static void take_better(const FittedArc& other, FittedArc& best) {
@@ -216,7 +231,7 @@ class PieceFit {
   const ArcTask& task_;
   const ArcPiece& piece_;
   std::array<Eigen::Index, 2> plane_;
-  std::vector<Sample> samples_;
+  std::vector<Sample> samples_, waves_;
   Vector3 start_, end_;
   Vector3 kept_ = Vector3::Zero();  // the original centre, seen from the start
 };

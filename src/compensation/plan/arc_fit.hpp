@@ -26,9 +26,11 @@ struct ArcTask {
   PointAt commanded;       ///< wanted position and correction at a fraction of it, program coordinates (mm)
   OrientationAt turned{};  ///< the same of the orientation, for a move that has one
   double begin = 0, end = 1;    ///< fractions between which `commanded` has no step
-  std::vector<double> corners;  ///< fractions where the correction has corners
-  double tolerance_mm = 0;      ///< of the commanded curve, at equal fractions
-  double chord_room_mm = 0;     ///< what chords may leave of it between their ends; 0: rounding takes it all
+  std::vector<double> corners;  ///< fractions where the force has corners
+  /// Fractions at which pieces are judged, too, where the correction may wave between the others.
+  std::vector<double> waves{};
+  double tolerance_mm = 0;   ///< of the commanded curve, at equal fractions
+  double chord_room_mm = 0;  ///< what chords may leave of it between their ends; 0: rounding takes it all
 };
 
 /// A piece of the arc between two fractions, from where the text holds the tool.

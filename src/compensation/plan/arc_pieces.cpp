@@ -204,7 +204,9 @@ class ArcDivider {
       place.head<3>() = task_.commanded(u);
       return place;
     };
-    for (const double u : choose_knots(commanded, u0, u1, task_.corners, task_.chord_room_mm)) {
+    std::vector<double> corners = task_.corners;
+    corners.insert(corners.end(), task_.waves.begin(), task_.waves.end());
+    for (const double u : choose_knots(commanded, u0, u1, corners, task_.chord_room_mm)) {
       const Via via{task_.commanded(u)};
       put(via, u, end_of(via, u));
     }

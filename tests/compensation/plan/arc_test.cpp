@@ -143,6 +143,22 @@ TEST_CASE("a correction that waves about the middle of an arc's quarter does not
   CHECK(result.counts.inserted_blocks < 8);
 }
 
+TEST_CASE("a circle across many positions of a table is divided until it follows all of them") {
+  const Machine machine = slides(
+      "[error_tables.x]\n"
+      "positions_mm = [-70, -60, -50, -40, -30, -20, -10, 0, 10, 20, 30, 40, 50, 60, 70]\n"
+      "EXX_um = [-10, 3.3, -0.6, 5.2, -2.5, 5.4, -4.5, 6, 4.6, -1.7, 0.8, 3.6, -6.1, 1.1, 6.1]\n"
+      "EYX_um = [-2.8, 2, -3.9, 1.8, -8.2, 7.6, 0.5, -7.7, 3.3, -3.8, -6.1, -0.3, -7.2, -5.8, 7.3]\n",
+      ", error_table = \"x\"", "");
+  for (int tenths = 60; tenths <= 120; tenths += 2) {
+    CAPTURE(tenths);
+    const Shop shop({.machine = machine,
+                     .text = "G21 G90 G17\nG0 X-60 Y0 Z0\nG2 I60 J0 F500\nM30\n",
+                     .tolerance = 0.1e-6 * tenths});
+    CHECK(dense_miss(shop, compensated(shop), 99).size <= 1.001 * shop.options.tolerance);
+  }
+}
+
 TEST_CASE("an arc that eight pieces cannot follow is divided into more") {
   Order order{.machine = rigid_gantry("0, 0, 0", 20e-3),
               .text = "G21 G90\nG0 X0. Y0. Z0.\nG2 X100. Y0. I50. J0. F500\nG3 X120. Y20. I0. J20.\nM30\n",
