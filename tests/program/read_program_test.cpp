@@ -311,6 +311,20 @@ TEST_CASE("a feed move may be inserted before a block only if start and feed are
   CHECK(may_jump == std::vector<bool>{false, false, false, true, true, false, false});
 }
 
+TEST_CASE("a feed move before a rapid has the feed that acts before its block") {
+  const auto may_jump = [](const std::string& lines) {
+    return read("G21 S1000 M3\nG0 X1 Y1 Z1\n" + lines).moves.back().may_jump;
+  };
+  CHECK(may_jump("G1 X3 F100\nG0 Z5 F200"));
+  CHECK(may_jump("G1 X3 F100\nG0 Z5 F#1"));
+  CHECK_FALSE(may_jump("G0 Z5 F200"));
+  CHECK_FALSE(may_jump("F#1\nG0 Z5 F200"));
+  CHECK_FALSE(may_jump("G95 G1 X3 F.1\nG94\nG0 Z5 F200"));
+  CHECK_FALSE(may_jump("G95 G1 X3 F.1\nM5\nG0 Z5 M3"));
+  CHECK_FALSE(may_jump("G1 X3 F100\n/G0 Z5"));
+  CHECK(may_jump("G1 X3 F100\n/G1 Z5"));
+}
+
 TEST_CASE("G64 gets a remark with its tolerance in mm, once for each tolerance") {
   const Program program = read("G64\nG20\nG64 P0.004 Q0.002\nG64 P0.004 Q0.002\nG21 G64 P.1\n");
   REQUIRE(program.remarks.size() == 3);

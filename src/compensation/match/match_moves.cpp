@@ -37,6 +37,11 @@ bool may_go_on(const Move& original, const std::string& words, const CorrectedMo
   return j == 0 && is_first_piece(original, words) ? found.words == words : is_plain(found.words);
 }
 
+// A feed move before a rapid has the F of the cut that it ends: F in the block of the rapid acts behind it.
+bool ends_cut_before(const Move& original, const Move& found, const std::string& words) {
+  return original.motion == Motion::rapid && found.feed_mm_min > 0 && feed_word(words).empty();
+}
+
 std::size_t most_moves(const Move& original, bool has_segment) {
   if (!has_segment || original.handling == Handling::held || original.cycle) return 1;
   if (original.motion == Motion::feed && (original.may_split || changes_height_inside(original)))
@@ -306,7 +311,8 @@ std::optional<Failure> words_failure(const Job& job, const MatchedMoves& matched
     const bool same_text =
         move.feed_mm_min > 0 || feed_word(words).empty() || feed_word(words) == feed_word(wanted);
     const bool same_feed = move.motion == Motion::rapid || move.feed_mode == FeedMode::inverse_time ||
-                           only_turns(original) || (move.feed_mm_min == original.feed_mm_min && same_text);
+                           only_turns(original) || (move.feed_mm_min == original.feed_mm_min && same_text) ||
+                           ends_cut_before(original, move, words);
     if (matched.found.size() == 1 && words != wanted)
       return matched.failure_at(move.line,
                                 "the words besides coordinates are not those of the original's block");

@@ -311,6 +311,7 @@ void read_statement(const Block& block, Reading& r) {
 }  // namespace
 
 void interpret(const Block& block, Reading& r) {
+  r.feed_before_mm_min = feed_mm_min(r);
   apply_comments(block, r);
   remark_length(block, r);
   if (r.dialect.sinumerik_words) note_declarations(block, r);

@@ -50,6 +50,7 @@ struct Reading {
   const Outline& outline;
   ModalState state{};
   SortedBlock sorted{};
+  double feed_before_mm_min = 0;         ///< that acts before the block; 0: unknown
   std::optional<double> own_feed{};      ///< FB=, of the block alone; 0: unknown
   bool sets_tool_length = false;         ///< the block does
   std::optional<bool> block_relative{};  ///< X=IC(5), X=AC(5): for this block only; overrides the modal state

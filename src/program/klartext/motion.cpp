@@ -100,7 +100,9 @@ void allow_klartext_changes(const KlartextCodes& codes, bool held, KlartextReadi
   const bool divided = !codes.acts_after && !r.state.corner && !held && !has_time && !skips_arc;
   const bool feed = move.motion == Motion::feed;
   move.may_split = feed && divided;
-  move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && divided;
+  // A move that is inserted before a rapid has no F of its own.
+  const double feed_of_jump = feed ? move.feed_mm_min : r.feed_before_mm_min;
+  move.may_jump = all_known(move.known_start) && feed_of_jump > 0 && divided && (feed || !move.block_delete);
   move.stays_whole = codes.acts_after || has_time || skips_arc || find_word(r.words, "M") != nullptr;
 }
 
@@ -243,6 +245,13 @@ void forget_klartext_speeds(KlartextState& state) {
   state.spindle_rpm = 0;
 }
 
+/// That acts now; 0: unknown.
+double feed_mm_min(const KlartextState& state) {
+  if (state.plunges_slower) return 0;
+  const double rpm = state.spindle_off ? 0 : state.spindle_rpm;
+  return state.feed.mm * (state.feed.per_turn ? rpm : 1.0);
+}
+
 Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   const KlartextState& state = r.state;
   Move move;
@@ -258,8 +267,7 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
       move.moved_only_by_program[axis] = state.moved_by_machine[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;
   move.spindle_rpm = state.spindle_off ? 0 : state.spindle_rpm;
-  move.feed_mm_min = state.feed.mm * (state.feed.per_turn ? move.spindle_rpm : 1.0);
-  if (state.plunges_slower) move.feed_mm_min = 0;
+  move.feed_mm_min = feed_mm_min(state);
   if (!empty(block.number)) {
     long number = 0;
     for (const char c : part(r.program.text, block.number).substr(0, 9)) number = 10 * number + (c - '0');
@@ -290,6 +298,7 @@ void retract_klartext(const KlartextBlock& block, KlartextReading& r, const char
 }
 
 void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
+  r.feed_before_mm_min = feed_mm_min(r.state);
   if (!read_words(block, r)) {
     forget_klartext_speeds(r.state);
     return add_unfollowed_move(block, r,

@@ -94,6 +94,7 @@ struct KlartextReading {
   std::size_t moves_read = 0;  ///< since the begin of the program; counted by `add_move`
   KlartextState state{};
   std::vector<KlartextWord> words{};
+  double feed_before_mm_min = 0;  ///< that acts before the block; 0: unknown
   CurrentOperation operation{};
   std::map<std::string, double, std::less<>> variables{};  ///< Q parameters with known values: "q5"
   std::string last_reason{};                               ///< reason of the last uncorrected block

@@ -1,6 +1,8 @@
 // Steps of the force that act as steps, and blocks that must stay whole.
 #include <fmt/format.h>
 
+#include <algorithm>
+
 #include "compensation/support/judge.hpp"
 
 using namespace counterflex;
@@ -45,6 +47,55 @@ TEST_CASE("a modal rapid after a jump has a G0 of its own") {
   const auto before = shop.program.moves, after = read_program(result.text, "c", {}).moves;
   CHECK(after.back().motion == Motion::rapid);
   CHECK(after[after.size() - 2].motion == Motion::feed);
+}
+
+TEST_CASE("an extra feed move before a rapid has the feed of the cut, also if the rapid has another F") {
+  const std::string gcode = "G21 G90\nG0 X0. Y0. Z0.\n";
+  const std::string klartext = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0 R0 FMAX M3\n";
+  const std::vector<std::pair<std::string, double>> cases{
+      {gcode + "G1 X2. F1000\nG0 Z20. F300\nG1 X4.\nM30\n", 1000},
+      {gcode + "G1 X2. F1000\nG0 Z20. M8 F300\nG1 X4.\nM30\n", 1000},
+      {gcode + "G1 X2. F1000\nG0 Z20. F#1\nG1 X4. F300\nM30\n", 1000},
+      {gcode + "G1 X2. F1000\nG91\nG0 Z20. F300\nG1 X4.\nM30\n", 1000},
+      {gcode + "S1000 M3 G95\nG1 X2. F.3\nG0 Z20. S2000\nG1 X4.\nM30\n", 300},
+      {klartext + "L X+2 F1000\nL Z+20 FMAX\nL X+4 F300\nEND PGM A MM\n", 1000}};
+  for (const std::pair<std::string, double>& program_and_feed : cases) {
+    const std::string& text = program_and_feed.first;
+    const double feed = program_and_feed.second;
+    CAPTURE(text);
+    const Shop shop(
+        {.machine = load_machine(orthoglide_b), .text = text, .force = constant_force(milling(), 0)});
+    const Compensation result = compensated(shop);
+    CHECK(refusal_of(shop, result.text) == "");
+    const auto before = shop.program.moves, after = read_program(result.text, "c", {}).moves;
+    const auto rapid = std::find_if(after.begin() + 1, after.end(),
+                                    [](const Move& move) { return move.motion == Motion::rapid; });
+    REQUIRE(rapid != after.end());
+    CHECK((rapid - 2)->feed_mm_min == feed);
+    CHECK((rapid - 1)->feed_mm_min == feed);
+    CHECK(after.back().feed_mm_min == before.back().feed_mm_min);
+    CHECK(jumps_of(shop, result) == 3);
+  }
+}
+
+TEST_CASE("before a rapid without a feed that acts, and before one with '/', no feed move is inserted") {
+  const std::string gcode = "G21 G90\nG0 X0. Y0. Z0.\n", turning = gcode + "S1000 M3\nG95\nG1 X2. F.1\n";
+  const std::string klartext = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+0 R0 FMAX M3\n";
+  for (const std::string& text :
+       {gcode + "G93 G1 X2. F10\nG94\nG0 Z20. F300\nG1 X4.\nM30\n",
+        turning + "G94\nG0 Z20. F300\nG1 X4.\nM30\n", turning + "M5\nG0 Z20. M3\nG1 X4.\nM30\n",
+        gcode + "G1 X2. F100\n/G0 Z20.\nG0 X2. Y0. Z20.\nG1 X4.\nM30\n",
+        klartext + "M136\nL X+2 F0.1\nM5\nL Z+20 FMAX M3\nL X+4\nEND PGM A MM\n",
+        klartext + "L X+2 F100\n/L Z+20 FMAX\nL X+2 Y+0 Z+20 FMAX\nL X+4\nEND PGM A MM\n"}) {
+    CAPTURE(text);
+    const Shop shop(
+        {.machine = load_machine(orthoglide_b), .text = text, .force = constant_force(milling(), 0)});
+    const Compensation result = compensated(shop);
+    CHECK(refusal_of(shop, result.text) == "");
+    CHECK(jumps_of(shop, result) == 2);
+    for (const Move& move : read_program(result.text, "c", {}).moves)
+      if (move.motion == Motion::feed) CHECK(move.feed_mm_min > 0);
+  }
 }
 
 TEST_CASE("a step of the force may be less than a digit away from the end of a block") {

@@ -26,23 +26,6 @@ double spindle_rpm(const ModalState& state) {
   return state.spindle_off ? 0 : state.spindle_rpm;
 }
 
-/// 0 if it is unknown.
-double feed_mm_min(const Reading& r) {
-  const ModalState& state = r.state;
-  constexpr std::uint16_t doubts = unknown_unit | unknown_feed_mode;
-  if (!state.unit || state.feed_mode == FeedUnit::inverse_time || (state.unknown_modes & doubts) != 0)
-    return 0;
-  if (state.feed_of_axes) return 0;
-  // Whether OVR= acts on FB=, too, is not known.
-  if (r.own_feed && state.feed_share != 1) return 0;
-  const std::optional<LengthUnit> own_unit = unit_of_feed(r);
-  if (r.own_feed && !own_unit) return 0;
-  const double feed = r.own_feed
-                          ? *r.own_feed * mm_per(*own_unit)
-                          : state.feed_share * state.feed * mm_per(state.feed_unit.value_or(*state.unit));
-  return state.feed_mode == FeedUnit::per_turn ? feed * spindle_rpm(state) : feed;
-}
-
 /// Length of the move's path (mm); 0 if it is unknown.
 double way_mm(const Move& move) {
   if (!all_known(move.known_start) || !all_known(move.known_end)) return 0;
@@ -60,6 +43,12 @@ void set_inverse_time(const Reading& r, Move& move) {
   if (f == nullptr || !f->literal) return;
   move.feed_per_min = f->value;
   move.feed_mm_min = f->value * way_mm(move);
+}
+
+/// Whether the feed is known of a move that is inserted before the block: before a rapid it has no F of its
+/// own.
+bool jump_has_feed(const Reading& r, const Move& move) {
+  return (move.motion == Motion::feed ? move.feed_mm_min : r.feed_before_mm_min) > 0;
 }
 
 /// Whether the block has words whose effect inserted points would change.
@@ -89,8 +78,9 @@ void allow_changes(const Reading& r, Move& move) {
   const bool only_motion = b.g.empty() || (b.g.size() == 1 && b.g[0].code->group == CodeGroup::motion);
   move.stays_whole = rigid || !shares_feed || !only_motion || !b.m.empty() || b.has_any("ABCDHLPQSTUVW") ||
                      changes_compensation(r.state);
-  move.may_jump = all_known(move.known_start) && !corner && !rigid && move.feed_mm_min > 0 &&
-                  !move.exact_stop && !acts_at_end && !unit && (feed ? move.may_split : only_motion);
+  move.may_jump = all_known(move.known_start) && !corner && !rigid && jump_has_feed(r, move) &&
+                  !move.exact_stop && !acts_at_end && !unit &&
+                  (feed ? move.may_split : only_motion && !move.block_delete);
 }
 
 std::string_view displacement_text(const Reading& r) {
@@ -304,6 +294,22 @@ std::string_view why_not_followed(const Reading& r) {
                             : std::string_view();
 }
 
+double feed_mm_min(const Reading& r) {
+  const ModalState& state = r.state;
+  constexpr std::uint16_t doubts = unknown_unit | unknown_feed_mode;
+  if (!state.unit || state.feed_mode == FeedUnit::inverse_time || (state.unknown_modes & doubts) != 0)
+    return 0;
+  if (state.feed_of_axes) return 0;
+  // Whether OVR= acts on FB=, too, is not known.
+  if (r.own_feed && state.feed_share != 1) return 0;
+  const std::optional<LengthUnit> own_unit = unit_of_feed(r);
+  if (r.own_feed && !own_unit) return 0;
+  const double feed = r.own_feed
+                          ? *r.own_feed * mm_per(*own_unit)
+                          : state.feed_share * state.feed * mm_per(state.feed_unit.value_or(*state.unit));
+  return state.feed_mode == FeedUnit::per_turn ? feed * spindle_rpm(state) : feed;
+}
+
 bool has_known_orientation(const ModalState& state) {
   return !state.turns_tool || all_known(state.known_angles);
 }
@@ -353,10 +359,10 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   return move;
 }
 
-void allow_plain_changes(Move& move) {
+void allow_plain_changes(const Reading& r, Move& move) {
   const bool continues = !move.exact_stop;
   move.may_split = move.motion == Motion::feed && continues;
-  move.may_jump = all_known(move.known_start) && move.feed_mm_min > 0 && continues;
+  move.may_jump = all_known(move.known_start) && jump_has_feed(r, move) && continues;
 }
 
 void move_by_machine(Reading& r, std::size_t axis) {

@@ -19,6 +19,9 @@ bool may_turn_tool(const Reading& reading);
 /// Refuses drilling cycles and cutter compensation in a program that turns the tool.
 void refuse_beside_orientation(const Block& block, const Reading& reading);
 
+/// The feed that acts now (mm/min); 0 if it is unknown.
+double feed_mm_min(const Reading& reading);
+
 /// Whether the tool's orientation is known, or no word turns it.
 bool has_known_orientation(const ModalState& state);
 
@@ -45,7 +48,7 @@ void fix_axis(Reading& reading, Move& move, std::size_t axis);
 void forget_way(Move& move);
 
 /// Sets what may be changed of a move read by `takes_plain_lines`, with the result of `finish_move`.
-void allow_plain_changes(Move& move);
+void allow_plain_changes(const Reading& reading, Move& move);
 
 /// Sets the end of the move, and what may be changed.
 void finish_move(Reading& reading, Move& move);

@@ -72,6 +72,7 @@ class PlainReader {
   }
 
   void add_move() {
+    r_.feed_before_mm_min = feed_mm_min(r_);
     set_modes();
     Move& move = begin_move(block_, r_, r_.state.motion == MotionMode::feed ? Motion::feed : Motion::rapid);
     if (words_.has(PlainWord::number)) move.block_number = static_cast<long>(words_.block_number);
@@ -79,7 +80,7 @@ class PlainReader {
     for (std::size_t axis = 0; axis < 3; ++axis)
       if (words_.has(static_cast<PlainWord>(axis))) place(axis, move);
     move.known_end = r_.state.known;
-    allow_plain_changes(move);
+    allow_plain_changes(r_, move);
   }
 
   void place(std::size_t axis, Move& move) {
