@@ -84,9 +84,8 @@ void Emitter::emit_first_known(std::size_t m) {
 double Emitter::retract_mm(const Move& move, double shift) {
   const CycleMove& cycle = *move.cycle;
   const double planned = cycle.retract_mm + shift;
-  const bool is_chosen = cycle.retract_word && !move.relative && cycle.retract_mm >= move.start_mm.z() &&
-                         chooses_height_by_retract(job_.program, move);
-  if (!is_chosen) return planned;
+  const bool may_raise = cycle.retract_word && !move.relative && keeps_retract_above_tool(job_.program, move);
+  if (!may_raise) return planned;
   const WriteOptions& options = job_.options.write;
   const int decimals = options.decimals >= 0
                            ? options.decimals

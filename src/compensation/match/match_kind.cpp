@@ -315,7 +315,8 @@ class KindComparison {
     const bool chooses = chooses_height_by_retract(job_.program, original_) && found.known_start[2];
     if (!failure_ && chooses) compare_height_of_way(found);
     const double above_tool = cycle.retract_mm - found.start_mm.z();
-    const bool raised = chooses && is_above_tool(original_) && above_tool <= roundings * rounding_mm_;
+    const bool raised = found.known_start[2] && keeps_retract_above_tool(job_.program, original_) &&
+                        above_tool <= roundings * rounding_mm_;
     if (!failure_ && both && !raised && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
       fail(found,
            fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",

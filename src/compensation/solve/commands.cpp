@@ -71,6 +71,14 @@ bool chooses_height_by_retract(const Program& program, const Move& hole) {
          hole.known_start[2] && (!hole.known_end[2] || hole.start_mm.z() < cycle.initial_mm);
 }
 
+bool keeps_retract_above_tool(const Program& program, const Move& hole) {
+  const CycleMove& cycle = *hole.cycle;
+  if (program.dialect != "linuxcnc" || !hole.known_start[2] || cycle.retract_mm < hole.start_mm.z())
+    return false;
+  const bool leaves_at_retract = !cycle.returns_to_retract && cycle.retract_mm >= cycle.initial_mm;
+  return leaves_at_retract || chooses_height_by_retract(program, hole);
+}
+
 namespace {
 
 Piece piece_without_segment(const Job& job, const Move& original, const Vector3& commanded) {

@@ -43,6 +43,10 @@ Vector3 hole_of(const Move& move);
 /// G99.
 bool chooses_height_by_retract(const Program& program, const Move& hole);
 
+/// Whether R is not below the tool, and must not be in the text: it decides that height, or LinuxCNC leaves
+/// the tool at R under G98 as under G99. The program may have left the choice of these to the control.
+bool keeps_retract_above_tool(const Program& program, const Move& hole);
+
 /// The piece of the hole of a cycle at fraction `u` of its move (`fractions_of_holes`). `found` commands it:
 /// the same move, or the one that was written for it.
 Piece piece_of_hole(const Job& job, const Move& original, const Move& found, double u);

@@ -109,3 +109,23 @@ TEST_CASE("linuxcnc: behind a hole under G99, R of one under G98 is above the to
   const std::vector<Move> moves = moves_in(compensated(fanuc).text);
   CHECK(moves[2].cycle->retract_mm - moves[2].cycle->bottom_mm == doctest::Approx(7));
 }
+
+TEST_CASE("linuxcnc: R at the height of the tool stays there, so that G98 and G99 need not be programmed") {
+  for (const double tilt : {-4e-4, 4e-4})
+    for (const std::string further :
+         {"", "X95. R2.\n", "X5.\nX95.\n", "X5. R2.\nX95. R2.\n", "X5. R3.\nX95.\n"}) {
+      CAPTURE(tilt);
+      CAPTURE(further);
+      Machine machine = perfect_gantry();
+      std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, tilt, 0));
+      const Shop shop({.machine = machine,
+                       .text = "G21 G90 G17\nG0 X10. Y10. Z2.\nG81 X90. Z-5. R2. F100\n" + further +
+                               "G80\nG0 X0.\nM2\n"});
+      const std::string corrected = compensated(shop).text;
+      CHECK(refusal_of(shop, corrected) == "");
+      const std::vector<Move> moves = moves_in(corrected);
+      CHECK(moves[1].cycle->retract_mm >= moves[1].start_mm.z());
+      CHECK(std::abs(moves[1].cycle->bottom_mm + 5) > 0.03);
+      CHECK(moves.back().known_start[2]);
+    }
+}
