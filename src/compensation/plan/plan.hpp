@@ -46,11 +46,14 @@ class CorrectionCurve {
     return polynomial_at(after == intervals_.end() ? intervals_.back() : *after, u);
   }
 
-  /// The fractions of its nodes: as close as it bends.
+  /// The fractions of its nodes and of the middles between them: as close as it bends.
   std::vector<double> nodes() const {
     std::vector<double> fractions;
     for (const CurveInterval& interval : intervals_)
-      for (const CurveNode& node : interval) fractions.push_back(node.u);
+      for (const CurveNode& node : interval) {
+        if (!fractions.empty()) fractions.push_back((fractions.back() + node.u) / 2);
+        fractions.push_back(node.u);
+      }
     return fractions;
   }
 
