@@ -220,10 +220,10 @@ struct ForwardRun {
 ///
 /// The places of the original path are the ends of its segments, the starts of feed runs (see PathForces)
 /// and, along feed moves, the corners of the force and equal steps of at most 5 mm (a 64th of a longer move)
-/// and 22.5 degrees of an arc, on all of its turns. Where the force steps, a joint reverses or the tool
-/// changes there are two: under what acts before, and under what acts behind it. They do not depend on the
-/// pieces. `before` and its causes
-/// count there: all runs over one program with one tolerance agree on them. Corners of a line of one step are
+/// and 22.5 degrees of an arc, on all of its turns; closer where the force turns with the arc. Where the
+/// force steps, a joint reverses or the tool changes there are two: under what acts before, and under what
+/// acts behind it. They do not depend on the pieces. `before` and its causes count there: all runs over one
+/// program with one tolerance agree on them. Corners of a line of one step are
 /// no places where the bound of its cells, with the corners, is within a tenth of the tolerance and the force
 /// is not larger than at its ends.
 ///
@@ -232,7 +232,8 @@ struct ForwardRun {
 /// the tolerance, nothing is solved between them. Otherwise the middle is sampled: a short line in its
 /// middle, an arc at least every 11.25 degrees. Where the middle is off the line between the deviations
 /// beside it by more than a tenth of the tolerance, or where less than a fifth of the tolerance is left, the
-/// odd sixteenths between the two places are sampled, too. No piece is inferred from its neighbours.
+/// odd sixteenths between the two places are sampled, too; of a machine with knees also the places beside
+/// corners of the deviation. No piece is inferred from its neighbours.
 ///
 /// What a control puts into a corner between two pieces is sampled at 17 places or more: `in_corner`, with
 /// the first of the two pieces. Its wanted way lies between the wanted curves, its command between those of
