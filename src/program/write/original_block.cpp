@@ -103,7 +103,9 @@ std::string motion_text(const Original& o, int motion) {
 
 std::string feed_text(const Original& o) {
   const Word* feed = find_word(o.block, 'F');
-  const bool copied = feed != nullptr && o.move.motion == Motion::feed;
+  const auto is_unit = [](const Word& w) { return w.letter == 'G' && (w.value == 20 || w.value == 21); };
+  const bool other_unit = o.dialect.feed_before_unit && std::ranges::any_of(o.block.words, is_unit);
+  const bool copied = feed != nullptr && o.move.motion == Motion::feed && !other_unit;
   return copied ? std::string(o.text(feed->span)) : std::string();
 }
 

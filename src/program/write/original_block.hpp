@@ -52,7 +52,8 @@ char letter_of(const Original& original, char upper);
 /// G`motion`, in the spelling of the block.
 std::string motion_text(const Original& original, int motion);
 
-/// The F word of a feed move; empty without one.
+/// The F word of a feed move, for further pieces; empty without one. Behind a G20 or G21 of the block it may
+/// be read in another unit there than in the block: the feed of the first piece stays.
 std::string feed_text(const Original& original);
 
 /// '/' with the blanks behind it; empty without '/'.

@@ -153,6 +153,15 @@ TEST_CASE("a block with other words is itself the first piece") {
             "N10 G1 G54 X1. Y0.25 Z0. F100 S900 M3\nG1 X2.000 F100\nG1 X3.000 Y0.000 F100\nM5\n");
 }
 
+TEST_CASE("the other pieces do not repeat an F that is read in the unit before the block") {
+  const MoveEdit edit{.inserted = {{{12.7, 0.25, 0}}}, .end_mm = {25.4, 0, 0}};
+  const std::string block = std::string(start) + "G20 G1 X1. F20\n";
+  CHECK(with_last_move(block, edit, "linuxcnc") ==
+        std::string(start) + "G20 G1 X0.5 Y0.0098 F20\nG1 X1.0000 Y0.0000\n");
+  CHECK(with_last_move(block, edit, "fanuc") ==
+        std::string(start) + "G20 G1 X0.5 Y0.0098 F20\nG1 X1.0000 Y0.0000 F20\n");
+}
+
 TEST_CASE("a block that sets the force is itself the first piece") {
   const MoveEdit edit{.inserted = {{{1, 0.25, 0}}}, .end_mm = {3, 0, 0}};
   CHECK(with_last_move(std::string(start) + "G1 X3. F100 (FORCE FX=5)\n", edit) ==
