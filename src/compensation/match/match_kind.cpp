@@ -10,6 +10,7 @@
 #include "compensation/solve/commands.hpp"
 #include "compensation/solve/failures.hpp"
 #include "counterflex/compensation/windows.hpp"
+#include "counterflex/files/text.hpp"
 #include "counterflex/geometry/types.hpp"
 
 namespace counterflex {
@@ -195,9 +196,8 @@ class KindComparison {
     const bool judged = matched_.segment && original_.handling == Handling::own && original_.may_split;
     if (sagitta > room && !judged)
       return fail(
-          found,
-          fmt::format("this chord leaves the arc of the original by {:.4f} mm, the tolerance is {:.4f} mm",
-                      sagitta, tolerance_mm_));
+          found, fmt::format("this chord leaves the arc of the original by {} mm, the tolerance is {:.6g} mm",
+                             format_beside(sagitta, tolerance_mm_, 4), tolerance_mm_));
     add_sweep(found);
   }
 

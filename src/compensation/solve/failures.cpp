@@ -54,7 +54,7 @@ std::optional<Failure> turn_failure(const Job& job, const Waypoint& w) {
     return Failure{
         ErrorKind::not_compensated, w.line,
         fmt::format("verification failed: the tool is {} by {} deg at {:.1f} % of this move, the "
-                    "tolerance is {:.4f} deg",
+                    "tolerance is {:.6g} deg",
                     what, format_beside(angle / deg, tolerance / deg, 4), 100 * w.fraction, tolerance / deg),
         w.corrected_line};
   };
@@ -218,7 +218,7 @@ std::optional<Failure> tolerance_failure(const Job& job, const std::vector<Waypo
     return Failure{
         ErrorKind::not_compensated, w.line,
         fmt::format("verification failed: the tip misses the path by {} mm at {:.1f} % of this move, the "
-                    "tolerance is {:.4f} mm",
+                    "tolerance is {:.6g} mm",
                     format_beside(miss / mm, job.options.tolerance / mm, 4), 100 * w.fraction,
                     job.options.tolerance / mm),
         w.corrected_line};
