@@ -49,13 +49,26 @@
         (times ? `: ${times} times smaller.` : '.');
   }
 
+  /** A report of an older version does not count the feed moves. */
+  const feedMoves = (report) => report.feed_moves || {};
+
+  /** "cutting length"; "known cutting length" if some feed moves have an unknown length. */
+  const cuttingLength = (report) => `${feedMoves(report).unknown_length > 0 ? 'known ' : ''}cutting length`;
+
+  const isMissed = ({summary, options}) => Boolean(summary.after) && summary.after.max_mm > options['tolerance-mm'];
+
+  /** Whether the share of the cutting length and the largest deviation are all that the reason of the verdict has. */
+  function hasShareAlone(report) {
+    const {corrected_percent: share} = report.summary;
+    return isMissed(report) && known(share) && share < 100 && !(feedMoves(report).unknown > 0);
+  }
+
   /** A warning if the residual exceeds the tolerance, because some blocks cannot be corrected. */
-  function missed({summary, options}, units) {
-    const tolerance = options['tolerance-mm'];
-    if (!(summary.after.max_mm > tolerance)) return '';
-    const {corrected_percent: held} = summary;
-    const share = known(held) ? `; ${percent(held)} of the cutting length is within it` : '';
-    return ` That is more than the tolerance of ${units.format(tolerance)}${share}.`;
+  function missed(report, units) {
+    if (!isMissed(report)) return '';
+    const share = hasShareAlone(report)
+      ? `; ${percent(report.summary.corrected_percent)} of the cutting length is within it` : '';
+    return ` That is more than the tolerance of ${units.format(report.options['tolerance-mm'])}${share}.`;
   }
 
   /** Whether a run has solved no place of a feed move or of a hole: it has no numbers then. */
@@ -78,15 +91,16 @@
    * The verdict as the terminal shows it; '' for a report of an older version. The reason is left out if the sentence
    * behind it has the same numbers in the unit of the page.
    */
-  function verdictLine({verdict, verdict_reason: reason}, stated) {
+  function verdictLine(report) {
+    const {verdict, verdict_reason: reason} = report;
     if (!verdict) return '';
-    return verdict === 'PARTLY' && reason && !stated ? `PARTLY (${reason})` : verdict;
+    return verdict === 'PARTLY' && reason && !hasShareAlone(report) ? `PARTLY (${reason})` : verdict;
   }
 
   /** The result of a run: its verdict and a sentence, and the kind: 'good', 'warn', 'bad' or 'neutral'. */
   function verdict(report, units) {
     const {text, kind} = sentence(report, units);
-    const line = verdictLine(report, Boolean(report.summary.after) && missed(report, units) !== '');
+    const line = verdictLine(report);
     if (!line) return {text, kind};
     if (report.failure) return {text: text.replace(/^Failed/, line), kind};
     const unwritten = report.command === 'compensate' && report.verdict !== 'OK' && !report.output;
@@ -159,5 +173,5 @@
 
   const toolName = (tool) => (tool > 0 ? `T${tool}` : '\u2013');
 
-  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, otherMoves, nothingSolved, causes, allParts, parts, cause, causeInShort, toolName, toolAndSize, tolerance, unitsOf};
+  counterflex.words = {counted, ofRun, fileName, inLine, factor, title, verdict, verdictWord, cuttingLength, otherMoves, nothingSolved, causes, allParts, parts, cause, causeInShort, toolName, toolAndSize, tolerance, unitsOf};
 })();

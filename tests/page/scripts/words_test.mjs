@@ -90,13 +90,30 @@ test('the verdict of the run comes first, and decides the colour', () => {
   assert.ok(partly.text.startsWith(`PARTLY (${reason}). `), partly.text);
   assert.match(partly.text, /No corrected program was written\.$/);
   assert.equal(partly.kind, 'warn');
-  const above = said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc', summary: {path_mm: 10, before: of(0.1), after: of(0.0095)}});
-  assert.match(above.text, /^PARTLY\. Off by .*more than the tolerance of 5\.0 \u00b5m/);
+  const above = said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc', summary: {path_mm: 10, before: of(0.1), after: of(0.0095), corrected_percent: 54.36}});
+  assert.match(above.text, /^PARTLY\. Off by .*more than the tolerance of 5\.0 \u00b5m; 54\.3 % of the cutting length is within it\./);
   assert.doesNotMatch(said({verdict: 'PARTLY', verdict_reason: reason, output: 'o.nc'}).text, /No corrected program/);
   assert.equal(said({verdict: 'NOTHING CORRECTED', verdict_reason: 'no feed move', output: null}).kind, 'bad');
   const failure = {line: 3, what: 'too far'};
   assert.deepEqual(said({verdict: 'FAILED', failure, output: null}),
       {text: 'FAILED. Line 3: too far. No corrected program was written.', kind: 'bad'});
+});
+
+test('the reason of PARTLY is shown if a share of the cutting length is not all of it', () => {
+  const partly = (verdict_reason, corrected_percent, feed_moves) => plain(words.verdict({...report_of({before: of(0.1), after: of(0.0252), corrected_percent}),
+    verdict: 'PARTLY', verdict_reason, feed_moves, output: 'o.nc'}, units.create('um'))).text;
+  for (const [reason, percent, moves] of [
+    ['100 % of the cutting length, 4 feed moves above the tolerance, worst 0.0252 mm > 0.005', 100, {missed: 4, unknown: 0, unknown_length: 0}],
+    ['54 % of the known cutting length, worst 0.0252 mm > 0.005, 1 feed move of unknown length', 54, {missed: 1, unknown: 1, unknown_length: 1}],
+    ['1 of 3 feed moves, worst 0.0252 mm > 0.005', null, {missed: 2, unknown: 0, unknown_length: 0}]])
+    assert.equal(partly(reason, percent, moves),
+        `PARTLY (${reason}). Off by up to 100 \u00b5m before, 25.2 \u00b5m after (model residual): 4.0 times smaller. That is more than the tolerance of 5.0 \u00b5m.`);
+});
+
+test('the cutting length is named as the known one if some feed moves have an unknown length', () => {
+  assert.equal(words.cuttingLength({feed_moves: {unknown_length: 1}}), 'known cutting length');
+  assert.equal(words.cuttingLength({feed_moves: {unknown_length: 0}}), 'cutting length');
+  assert.equal(words.cuttingLength({}), 'cutting length');
 });
 
 test('moves that are not corrected individually are counted as moves', () => {

@@ -29,8 +29,9 @@
     const {corrected, moves} = report.blocks;
     const left = report.only_significant;
     const rest = left ? ', the rest below its band' : '';
-    const note = `of the cutting length, within tolerance${rest}; ${corrected} of ${words.counted(moves, 'move')} ${left ? 'followed' : ''}`;
-    return card('corrected', left ? 'Within tolerance' : 'Corrected', percent(share), note.trim(), share < 100 && !left ? 'warn' : '');
+    const mark = (share < 100 && !left) || report.verdict === 'PARTLY' ? 'warn' : '';
+    const note = `of the ${words.cuttingLength(report)}, within tolerance${rest}; ${corrected} of ${words.counted(moves, 'move')} ${left ? 'followed' : ''}`;
+    return card('corrected', left ? 'Within tolerance' : 'Corrected', percent(share), note.trim(), mark);
   }
 
   function airCard(report, place) {
