@@ -42,3 +42,10 @@ test('the label of a tolerance has the letters of the runs that it judges', () =
   assert.deepEqual(plain(shown.map(({label}) => label)), ['tolerance of B 5.0 \u00b5m']);
   assert.deepEqual(plain(labels(null)), []);
 });
+
+test('without a cutting force the page does not warn of a dry run', () => {
+  const reminders = (largest_N, largest_Nm) => plain(summary.reminders({options: {'tolerance-mm': 0.005}, blocks: {}, failure: null,
+    summary: {air: {max_mm: 0.0252, line: 13}}, forces: {largest_N, largest_Nm, without_force: {moves: 0}}}, units.create('um')));
+  assert.deepEqual(reminders(0, 0), []);
+  for (const [force, moment] of [[60, 0], [0, 2]]) assert.match(reminders(force, moment)[0].text, /do not run it dry/);
+});

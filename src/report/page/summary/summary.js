@@ -68,6 +68,9 @@
     return typeof value === 'number' ? value : Infinity;
   }
 
+  /** Whether a cutting force or a moment acts anywhere. */
+  const forceActs = ({forces}) => forces.largest_N > 0 || forces.largest_Nm > 0;
+
   const namesOf = (report) => (report.command === 'predict'
     ? [['before', 'Deviation, as programmed']] : [['before', 'Before'], ['after', 'After (model residual)']]);
 
@@ -89,7 +92,7 @@
       before && !after && acrossCard(before, units),
       times && card('factor', 'Factor', `${times} \u00d7`, 'largest before / largest after'),
       typeof share === 'number' && correctedCard(report),
-      air && report.forces.largest_N > 0 && airCard(report, place),
+      air && forceActs(report) && airCard(report, place),
       correction && correction.max_mm > 0 && correctionCard(report, place),
     ].filter(Boolean);
   }
@@ -109,7 +112,7 @@
     if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
     if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
       add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
-    if (air && !report.failure && air.max_mm > tolerance(report))
+    if (air && forceActs(report) && !report.failure && air.max_mm > tolerance(report))
       add(`without the cutting force the program is off by up to ${units.format(air.max_mm)}: do not run it dry on the finished part`,
           'sensitivity');
     return list;
@@ -193,5 +196,5 @@
     return [el('h1', null, 'Two runs compared'), sentence, both];
   }
 
-  counterflex.summary = {render, subtitle, tolerance};
+  counterflex.summary = {render, subtitle, reminders, tolerance};
 })();
