@@ -5,6 +5,7 @@
 #include <algorithm>
 
 #include "counterflex/geometry/types.hpp"
+#include "counterflex/program/read_program.hpp"
 #include "counterflex/sanity/checks.hpp"
 #include "run/program_axes.hpp"
 
@@ -30,12 +31,20 @@ std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
   return frames;
 }
 
-std::vector<std::string> selected_offsets(const Overview& program) {
+SanityCheck check_selected_offsets(const Overview& program, const Machine& machine) {
+  bool in_use = false;
   std::vector<std::string> names;
-  for (std::size_t i = 0; i < program.frame_lines.size(); ++i)
-    if (program.frame_lines[i] > 0 && !program.frames[i].pose_mm)
-      names.push_back(program.frames[i].work_offset);
-  return names;
+  for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
+    if (program.frame_lines[i] == 0) continue;
+    in_use = true;
+    if (!program.frames[i].pose_mm) names.push_back(program.frames[i].work_offset);
+  }
+  if (!in_use) return {"work offset", SanityState::ok, "no move with a known position uses one"};
+  // A robot program that selects no base has its targets in the machine frame, not in G54.
+  const bool in_machine_frame = is_robot_dialect(program.dialect) &&
+                                std::ranges::all_of(names, [](const auto& name) { return name.empty(); });
+  const bool stated = !machine.work.empty() || machine.work_is_machine_frame;
+  return check_work_offset(names, stated && !in_machine_frame);
 }
 
 /// The machine with [tool], if some move uses it, and with the tools that change it.
@@ -99,8 +108,7 @@ SanityChecks program_sanity(const PlacedProgram& placed) {
                                       machine.allows_inverted_tool),
                       check_tip_stiffness(tip_stiffness(model, {}), "at home"),
                       check_tool_lengths(placed.lengths.mm, placed.program.tools, machine.X_PS.has_value()),
-                      check_work_offset(selected_offsets(placed.program),
-                                        !machine.work.empty() || machine.work_is_machine_frame)};
+                      check_selected_offsets(placed.program, machine)};
   append(checks, check_program_axes(placed.program, machine));
   append(checks, check_magnitudes(machine));
   return checks;
@@ -120,7 +128,9 @@ SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally&
     checks.insert(home + 1, std::move(*stiffness));
   }
   checks.push_back(check_travel(run.machine.model.mechanism, tally.travel(), report.failure));
-  checks.push_back(check_feed_force(tally.feed_force(), are_computed(run), report.failure));
+  // A force that acts in holes alone has no direction of feed to judge it by.
+  if (tally.feed_force().loaded > 0 || report.forces.largest_N == 0 || report.failure)
+    checks.push_back(check_feed_force(tally.feed_force(), are_computed(run), report.failure));
   append(checks, check_force_size(report.forces.largest_N));
   append(checks, check_tolerance(report.tolerance_mm));
   return checks;
