@@ -186,18 +186,37 @@ class MoveForces {
   std::vector<ForcePiece> pieces_;
 };
 
+MoveForce unplaced(const Move& move, std::string why) {
+  constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
+  MoveForce result{.line = move.line, .tool = move.tool, .s_start = unknown, .length = unknown};
+  if (move.feed_mode == FeedMode::length) result.feed_m_s = move.feed_mm_min * mm / 60;
+  result.spindle_rpm = move.spindle_rpm;
+  result.why = std::move(why);
+  return result;
+}
+
 }  // namespace
 
 std::vector<MoveForce> move_forces(const ForceSource& source, const Program& window, const Toolpath& path,
                                    const std::vector<Matrix3>& R_MT, std::optional<long>& block_number) {
   std::vector<MoveForce> moves;
+  std::size_t next = 0;
+  const auto add_unplaced_to = [&](std::size_t end) {
+    for (; next < end; ++next)
+      if (std::string why = why_unplaced(window, path, next); !why.empty())
+        moves.push_back(unplaced(window.moves[next], std::move(why)));
+  };
   if (path.segments.empty()) {
     RawForces(source, window, path, R_MT, block_number);
+    add_unplaced_to(window.moves.size());
     return moves;
   }
   MoveForces forces(source, window, path, R_MT, block_number);
-  for (std::size_t i = 0; i < path.segments.size(); ++i)
+  for (std::size_t i = 0; i < path.segments.size(); ++i) {
+    add_unplaced_to(path.segments[i].move);
     if (path.segments[i].cutting) moves.push_back(forces.of(i));
+  }
+  add_unplaced_to(window.moves.size());
   return moves;
 }
 

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <cmath>
+
 #include "forces/sample_cut.hpp"
 #include "forces/sample_path.hpp"
 
@@ -42,6 +44,18 @@ TEST_CASE("rapids carry no force, and are not listed among the cuts without one"
   const auto forces = forces_on(sample_program(), constant(wrench(1, 0, 0), 0));
   for (const std::size_t i : {0, 3}) CHECK(forces.at(i, 0.5) == Vector6::Zero());
   check_unforced(forces, {});
+}
+
+TEST_CASE("cuts with an unknown position are listed, with an unknown length") {
+  Program program = sample_program();
+  program.moves[4].known_end = program.moves[5].known_start = {false, true, true};
+  program.moves[5].known_end = {false, false, true};
+  const auto forces = forces_on(program, constant(wrench(1, 0, 0), 0));
+  REQUIRE(forces.unforced().size() == 2);
+  CHECK(forces.unforced()[0].line == 5);
+  CHECK(forces.unforced()[0].why == "the position in X is unknown");
+  CHECK(forces.unforced()[1].why == "the position in XY is unknown");
+  for (const Unforced& move : forces.unforced()) CHECK(std::isnan(move.length));
 }
 
 TEST_CASE("cuts outside all FORCE comments are listed, and those under a zero with another reason") {

@@ -110,8 +110,9 @@ struct ForceNote {
   std::string what;
 };
 
-/// A feed move without a force, and why: no force is given, the given force is zero, or no force can act
-/// there; `length` is that of the move (m), 0 for the hole of a cycle.
+/// A feed move without a force, and why: no force is given, the given force is zero, no force can act there,
+/// or its position is not known; `length` is that of the move (m), 0 for the hole of a cycle, NaN where it is
+/// not known.
 struct Unforced {
   int line = 0;
   double length = 0;
@@ -337,8 +338,8 @@ struct CutTorque {
 struct MoveForce {
   int line = 0;
   long tool = 0;       ///< 0: none known
-  double s_start = 0;  ///< cutting path length at its start (m)
-  double length = 0;   ///< m
+  double s_start = 0;  ///< cutting path length at its start (m); NaN: its position is not known
+  double length = 0;   ///< m; NaN: not known
   double feed_m_s = 0;
   double spindle_rpm = 0;        ///< the model's own where one acts, else the program's
   double feed_per_tooth = 0;     ///< m; 0: no cutting model acts

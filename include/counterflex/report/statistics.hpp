@@ -221,20 +221,20 @@ class FeedTally {
 struct WithoutForceReason {
   std::string why;
   std::size_t moves = 0;
-  double length_mm = 0;
-  int first_line = 0;  ///< the least
+  double length_mm = 0;  ///< NaN: that of some is not known
+  int first_line = 0;    ///< the least
 };
 
 /// One of them.
 struct WithoutForceRow {
   int line = 0;
-  double length_mm = 0;
+  double length_mm = 0;  ///< NaN: not known
   std::string why;
 };
 
 struct WithoutForce {
   std::size_t moves = 0;
-  double length_mm = 0;
+  double length_mm = 0;  ///< of those with a known length; NaN: of none
   /// As they were first met; where there are more than `listed_at_most` the last one represents all others.
   std::vector<WithoutForceReason> reasons;
   Capped<WithoutForceRow> rows;

@@ -3,6 +3,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <map>
 #include <nlohmann/json.hpp>
@@ -109,6 +110,7 @@ void add_window(const ForceSource& source, const Program& window, const Toolpath
   for (const Segment& segment : path.segments) {
     const Move& of = window.moves[segment.move];
     if (segment.cutting) {
+      while (std::isnan(forces[next].length)) ++next;  // its position is not known
       add_feed_move(forces[next++], source, input);
     } else {
       SpindleMove rapid{.line = segment.line, .kind = SpindleMove::Kind::air, .rpm = of.spindle_rpm};

@@ -1,6 +1,7 @@
 #include <fmt/format.h>
 
 #include <algorithm>
+#include <cmath>
 
 #include "commands/commands.hpp"
 #include "commands/fit_forces.hpp"
@@ -79,35 +80,6 @@ BareRun prepare_bare_run(const Options& options, Console& console) {
   return run;
 }
 
-/// Reports feed moves with unknown positions: they are not part of the path. One warning for consecutive
-/// moves.
-class Unplaced {
- public:
-  void warn(const Program& window, const Toolpath& path, Console& console) {
-    std::size_t next = 0;
-    for (std::size_t m = 0; m < window.moves.size(); ++m) {
-      while (next < path.segments.size() && path.segments[next].move < m) ++next;
-      const Move& move = window.moves[m];
-      const bool placed = next < path.segments.size() && path.segments[next].move == m;
-      const std::string axes = unknown_axes(move);
-      const bool is = !placed && !move.cycle && move.motion == Motion::feed && !axes.empty();
-      if (is && !before_)
-        console.warning(window.file, move.line, "no force computed: the position in " + axes + " is unknown");
-      before_ = is;
-    }
-  }
-
- private:
-  static std::string unknown_axes(const Move& move) {
-    std::string axes;
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (!move.known_start[axis] || !move.known_end[axis]) axes += "XYZ"[axis];
-    return axes;
-  }
-
-  bool before_ = false;
-};
-
 /// Writes the moves.
 class MoveListing {
  public:
@@ -120,18 +92,24 @@ class MoveListing {
     write(json_ ? json_head(program, at_platform) : table_head(program, at_platform));
   }
 
-  void add(const MoveForce& move) {
+  /// One warning for consecutive moves with unknown positions.
+  void add(const MoveForce& move, Console& console) {
     write(json_ ? json_row(move, is_first_) : table_row(move));
     is_first_ = false;
     cli::add(move, totals_);
+    const bool placed = !std::isnan(move.length);
+    if (!placed && was_placed_) console.warning(program_, move.line, "no force computed: " + move.why);
+    was_placed_ = placed;
+    if (!placed) return;
+    has_places_ = true;
     if (profile_) profile_->write(profile_rows(program_, move));
   }
 
   /// Throws `InputError` (ErrorKind::program_text) if a profile would have no row.
   void finish(Console& console) {
-    if (profile_ && is_first_)
+    if (profile_ && !has_places_)
       throw InputError(ErrorKind::program_text, {program_},
-                       "has no feed move: no force profile can be written");
+                       "has no feed move with a known position: no force profile can be written");
     write(json_ ? json_foot(totals_) : table_foot(totals_));
     publish_together({if_any(profile_), if_any(page_)});
     if (to_stdout_) console.note(table_foot(totals_));
@@ -143,7 +121,7 @@ class MoveListing {
   }
 
   std::string program_;
-  bool json_, to_stdout_ = false, is_first_ = true;
+  bool json_, to_stdout_ = false, is_first_ = true, was_placed_ = true, has_places_ = false;
   ForceTotals totals_;
   std::optional<FileWriter> profile_, page_;
 };
@@ -155,12 +133,10 @@ void walk_windows(const PathInput& input, const ForceSource& source, const std::
   ProgramReader reader(input.bytes, input.name, input.read);
   std::optional<long> block_number;
   PathEnd end;
-  Unplaced unplaced;
   while (reader.next()) {
     ignore_axes(reader.window(), input.ignored);
     const Toolpath path = build_toolpath(reader.window(), input.frames, end);
     end = path.end;
-    unplaced.warn(reader.window(), path, console);
     if (!path.segments.empty())
       console.progress(fmt::format("line {} of {}", path.segments.front().line, lines));
     const std::vector<Matrix3> R_MT = machine ? tool_orientations(*machine, reader.window(), path)
@@ -207,7 +183,7 @@ std::optional<ErrorKind> run_forces(const Options& options, Console& console) {
         listing.emplace(options, program, acts_at_platform(source));
       },
       [&](const ForceSource&, const Program&, const Toolpath&, const std::vector<MoveForce>& moves) {
-        for (const MoveForce& move : moves) listing->add(move);
+        for (const MoveForce& move : moves) listing->add(move, console);
       });
   check_output(options, profile_mark);  // again: a foreign file may have appeared
   listing->finish(console);

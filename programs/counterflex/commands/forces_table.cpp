@@ -2,6 +2,7 @@
 
 #include <fmt/format.h>
 
+#include <cmath>
 #include <nlohmann/json.hpp>
 
 #include "counterflex/files/input_error.hpp"
@@ -17,11 +18,22 @@ constexpr int force_decimals = 6, length_decimals = 9;  // of the profile: N, N 
 constexpr double rounding = 1e-9;
 
 std::string moves_text(const ForceTotals::Sum& sum) {
-  return fmt::format("{} feed move{}, {:.3f} mm", sum.moves, sum.moves == 1 ? "" : "s", sum.length / mm);
+  std::string text = fmt::format("{} feed move{}", sum.moves, sum.moves == 1 ? "" : "s");
+  if (sum.moves == 0 || sum.moves > sum.unknown) text += fmt::format(", {:.3f} mm", sum.length / mm);
+  if (sum.unknown > 0) text += fmt::format(", {} of unknown length", sum.unknown);
+  return text;
 }
 
 nlohmann::ordered_json sum_json(const ForceTotals::Sum& sum) {
-  return {{"moves", sum.moves}, {"length_mm", rounded(sum.length / mm, 6)}};
+  const bool unknown = sum.moves > 0 && sum.unknown == sum.moves;
+  nlohmann::ordered_json json{{"moves", sum.moves}, {"length_mm", nullptr}};
+  if (!unknown) json["length_mm"] = rounded(sum.length / mm, 6);
+  return json;
+}
+
+nlohmann::ordered_json number_if_known(double length_mm) {
+  if (std::isnan(length_mm)) return nullptr;
+  return rounded(length_mm, 6);
 }
 
 nlohmann::ordered_json number_or_null(double value, int decimals) {
@@ -57,7 +69,10 @@ void refuse_move(const std::string& program, const MoveForce& move) {
 void add(const MoveForce& move, ForceTotals& totals) {
   const auto count = [&](ForceTotals::Sum& sum) {
     ++sum.moves;
-    sum.length += move.length;
+    if (std::isnan(move.length))
+      ++sum.unknown;
+    else
+      sum.length += move.length;
   };
   if (!move.why.empty()) {
     count(totals.without);
@@ -83,8 +98,9 @@ std::string table_head(const std::string& program, bool at_platform) {
 
 std::string table_row(const MoveForce& move) {
   const auto if_known = [](double number) { return number == 0 ? "-" : fmt::format("{:.6g}", number); };
-  std::string text = fmt::format("{:>7} {:>5} {:>11.3f} {:>9} {:>7} ", move.line,
-                                 move.tool == 0 ? "-" : fmt::format("T{}", move.tool), move.length / mm,
+  std::string text = fmt::format("{:>7} {:>5} {:>11} {:>9} {:>7} ", move.line,
+                                 move.tool == 0 ? "-" : fmt::format("T{}", move.tool),
+                                 std::isnan(move.length) ? "-" : fmt::format("{:.3f}", move.length / mm),
                                  if_known(move.feed_m_s / mm * 60), if_known(move.spindle_rpm));
   text += move.feed_per_tooth == 0 ? fmt::format("{:>8}", "-")
                                    : fmt::format("{:>8.4f}", move.feed_per_tooth / mm);
@@ -122,8 +138,8 @@ std::string json_head(const std::string& program, bool at_platform) {
 std::string json_row(const MoveForce& move, bool first) {
   nlohmann::ordered_json json{{"line", move.line},
                               {"tool", move.tool},
-                              {"s_mm", rounded(move.s_start / mm, 6)},
-                              {"length_mm", rounded(move.length / mm, 6)},
+                              {"s_mm", number_if_known(move.s_start / mm)},
+                              {"length_mm", number_if_known(move.length / mm)},
                               {"feed_mm_min", number_or_null(move.feed_m_s / mm * 60, 6)},
                               {"spindle_rpm", number_or_null(move.spindle_rpm, 6)},
                               {"feed_per_tooth_mm", number_or_null(move.feed_per_tooth / mm, 9)}};

@@ -12,7 +12,8 @@ namespace counterflex::cli {
 struct ForceTotals {
   struct Sum {
     std::size_t moves = 0;
-    double length = 0;
+    std::size_t unknown = 0;  ///< of them: the length is not known
+    double length = 0;        ///< of the others
   };
   Sum with, without;
   std::map<std::string, Sum> why;  ///< moves without a force, by reason

@@ -131,6 +131,8 @@ ForceSource settled(ForceSource source, const Program& program, const Toolpath& 
   return source;
 }
 
+constexpr double unknown_length = std::numeric_limits<double>::quiet_NaN();
+
 }  // namespace
 
 PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
@@ -146,9 +148,13 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
   RawForces raw_forces(source, window, path, R_MT, tail_.block_number);
   ForceRemarks remarks;
   std::size_t next_move = 0, hole = 0;
-  const auto add_holes_to = [&](std::size_t end) {
+  const auto add_others_to = [&](std::size_t end) {
     for (; next_move < end; ++next_move) {
-      if (!drills(window.moves[next_move])) continue;
+      if (!drills(window.moves[next_move])) {
+        if (std::string why = why_unplaced(window, path, next_move); !why.empty())
+          remarks.unforced.push_back({window.moves[next_move].line, unknown_length, std::move(why)});
+        continue;
+      }
       const Matrix3& R = R_at_holes.empty() ? R_MT.front() : R_at_holes[hole++];
       const Vector6 F = raw_forces.in_hole(next_move, R, remarks);
       if (!F.isZero(0)) holes_.emplace_back(next_move, F);
@@ -160,7 +166,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
   if (open) take_up(*before.open);
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
-    add_holes_to(segment.move);
+    add_others_to(segment.move);
     if (i > 0 && open && !joins_previous(window, path, i)) {
       close_run(source.blend);
       open = false;
@@ -175,7 +181,7 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
         {segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run, calls ? segment.move : no_run});
     if (open) raw_forces.append_to(i, runs_.back().first_piece, pieces_, remarks);
   }
-  add_holes_to(window.moves.size());
+  add_others_to(window.moves.size());
   notes_ = std::move(remarks.notes);
   unforced_ = std::move(remarks.unforced);
   if (!open) return;

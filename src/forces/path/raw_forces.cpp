@@ -182,6 +182,16 @@ void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>&
   pieces.push_back(piece);
 }
 
+std::string why_unplaced(const Program& program, const Toolpath& path, std::size_t m) {
+  const Move& move = program.moves[m];
+  if (move.motion != Motion::feed || move.cycle) return "";
+  std::string axes;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (!move.known_start[axis] || !move.known_end[axis]) axes += "XYZ"[axis];
+  if (axes.empty() || std::ranges::binary_search(path.segments, m, {}, &Segment::move)) return "";
+  return "the position in " + axes + " is unknown";
+}
+
 RawForces::RawForces(const ForceSource& source, const Program& program, const Toolpath& path,
                      const std::vector<Matrix3>& R_MT, std::optional<long>& block_number)
     : source_(source),

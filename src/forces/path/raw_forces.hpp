@@ -2,6 +2,7 @@
 /// The wrench as given by rules and profiles, before the mean over the blend length.
 #include <optional>
 #include <span>
+#include <string>
 #include <vector>
 
 #include "counterflex/forces/forces.hpp"
@@ -42,6 +43,10 @@ inline Vector6 value(const ForcePiece& piece, double s) {
 /// Appends `piece` to the pieces of a run that begin at `first`, or extends the last one if it has the same
 /// constant.
 void append(const ForcePiece& piece, std::size_t first, std::vector<ForcePiece>& pieces);
+
+/// Why no force is computed for a feed move that is not part of `path`: "the position in XY is unknown".
+/// Empty for other moves. `move` is an index into the moves of `program`.
+std::string why_unplaced(const Program& program, const Toolpath& path, std::size_t move);
 
 /// Notes on the forces of a window.
 struct ForceRemarks {

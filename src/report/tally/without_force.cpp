@@ -1,4 +1,5 @@
 #include <algorithm>
+#include <cmath>
 
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/report/statistics.hpp"
@@ -22,8 +23,11 @@ WithoutForceReason& reason_of(const Unforced& move, std::vector<WithoutForceReas
 
 void add_unforced(WithoutForce& without, const Unforced& move) {
   const double length_mm = move.length / mm;
+  if (without.moves == 0 || std::isnan(without.length_mm))
+    without.length_mm = length_mm;
+  else if (!std::isnan(length_mm))
+    without.length_mm += length_mm;
   ++without.moves;
-  without.length_mm += length_mm;
   WithoutForceReason& reason = reason_of(move, without.reasons);
   ++reason.moves;
   reason.length_mm += length_mm;

@@ -37,16 +37,20 @@ std::string sensitivity_text(const RunReport& report) {
   return text + wrapped("  ", without, 2);
 }
 
+std::string length_text(double length_mm) {
+  return std::isnan(length_mm) ? "length unknown" : format_fixed(length_mm, 3) + " mm";
+}
+
 std::string without_force_text(const WithoutForce& without) {
   if (without.moves == 0) return "";
-  std::string text = fmt::format("  {}, {} mm, cut without a force\n", counted(without.moves, "feed move"),
-                                 format_fixed(without.length_mm, 3));
+  std::string text = fmt::format("  {}, {}, cut without a force\n", counted(without.moves, "feed move"),
+                                 length_text(without.length_mm));
   const std::size_t shown = std::min(shown_reasons, without.reasons.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const WithoutForceReason& reason = without.reasons[i];
     text += wrapped("    ",
-                    fmt::format("{}, {} mm, from line {} on: {}", counted(reason.moves, "move"),
-                                format_fixed(reason.length_mm, 3), reason.first_line, reason.why),
+                    fmt::format("{}, {}, from line {} on: {}", counted(reason.moves, "move"),
+                                length_text(reason.length_mm), reason.first_line, reason.why),
                     6);
   }
   if (without.reasons.size() > shown)

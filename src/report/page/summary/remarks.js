@@ -1,6 +1,7 @@
 'use strict';
 (() => {
   const {el, table, textColumn, numberColumn} = counterflex.dom;
+  const {known} = counterflex.units;
   const words = counterflex.words;
 
   /** Rows of a list that may be truncated. */
@@ -46,7 +47,7 @@
     const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), link(r.first_line)]);
     const columns = [textColumn('Why'), numberColumn('Moves'), numberColumn(`Length, ${units.lengthLabel}`),
       numberColumn('First line')];
-    const caption = `Without a cutting force: ${words.counted(moves, 'feed move')}, ${units.length(length)}`;
+    const caption = `Without a cutting force: ${words.counted(moves, 'feed move')}, ${known(length) ? units.length(length) : 'length unknown'}`;
     return table(words.ofRun(run, caption), columns, rows);
   }
 
