@@ -299,7 +299,7 @@ RunReport report_compensation(const RunContext& context, const RunTally& tally,
   report.blocks.others = tally.other_moves();
   report.blocks.inserted = tally.inserted_blocks();
   list(report.blocks.left_alone, tally.left_alone());
-  if (tally.text_bytes() > 0)
+  if (!failure && tally.text_bytes() > 0)  // the text of a run that failed is cut
     report.text_after = TextSize{context.program.blocks + report.blocks.inserted, tally.text_bytes()};
   report.warnings = all_warnings(context, tally, report);
   add_verdict(report, tally);

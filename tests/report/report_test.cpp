@@ -132,12 +132,15 @@ TEST_CASE("unsolved waypoints have no deviation: a failed run is not a perfect o
   const Failure failure{ErrorKind::not_compensated, 4, "singular"};
   Compensation none;
   none.failure = failure;
+  none.text = "G21\n";  // up to the failure
   const RunReport nothing = compensated(run, none);
   CHECK_FALSE(nothing.before);
   CHECK_FALSE(nothing.after);
   CHECK_FALSE(nothing.sources);
   CHECK_FALSE(nothing.air);
   CHECK_FALSE(nothing.text_after);
+  CHECK(details_text(nothing, false).find("Program\n") == std::string::npos);
+  CHECK(summary_text(nothing, {}, false).find("\n  program ") == std::string::npos);
   REQUIRE(nothing.failure);
   CHECK(nothing.failure->line == 4);
   std::vector<Waypoint> waypoints = made_up_waypoints();
