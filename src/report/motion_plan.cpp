@@ -27,6 +27,12 @@ void add_length(const Move& move, const Program& program, CutLength& cut) {
     ++cut.unknown;
 }
 
+/// Whether the place of the move's own correction is known: its end, or the bottom of its hole. The height
+/// behind a hole may be unknown.
+bool has_known_place(const Move& move) {
+  return all_known(move.known_end) || (move.cycle && move.known_end[0] && move.known_end[1]);
+}
+
 void put_costly_first(std::vector<PlanRow>& rows) {
   const auto cost = [](const PlanRow& row) {
     return std::make_tuple(row.cut.known_mm, row.cut.unknown, row.count);
@@ -58,13 +64,13 @@ class MotionPlanner::Window {
   }
 
  private:
-  /// For each move the first one, from it on, that ends at a known position.
+  /// For each move the first one, from it on, that has a known place.
   void find_known_ends() {
     next_known_.assign(program_.moves.size(), nullptr);
     const Move* next = nullptr;
     for (std::size_t m = program_.moves.size(); m-- > 0;) {
       const Move& move = program_.moves[m];
-      if (move.handling == Handling::own && !any_axis(move.fixed) && all_known(move.known_end)) next = &move;
+      if (move.handling == Handling::own && !any_axis(move.fixed) && has_known_place(move)) next = &move;
       next_known_[m] = next;
     }
   }
@@ -96,7 +102,7 @@ class MotionPlanner::Window {
     if (any_axis(move.fixed)) return MoveHandling::left;
     if (move.handling == Handling::group) return MoveHandling::grouped;
     if (move.handling == Handling::held || holds_in_doubt(move)) return MoveHandling::held;
-    if (all_known(move.known_end)) return MoveHandling::corrected;
+    if (has_known_place(move)) return MoveHandling::corrected;
     const Move* next = next_known_[m];
     const bool near = next != nullptr && next->block_index - move.block_index <= look_ahead;
     return near && !move.relative ? MoveHandling::corrected : MoveHandling::left;
@@ -112,13 +118,13 @@ class MotionPlanner::Window {
   /// What the text holds behind move `m`.
   void carry(std::size_t m, MoveHandling handling) {
     const Move& move = program_.moves[m];
-    const bool all = handling == MoveHandling::grouped ||
-                     (handling == MoveHandling::corrected && all_known(move.known_end));
+    const bool corrected = handling == MoveHandling::corrected && has_known_place(move);
     const bool in_doubt = holds_in_doubt(move);
     for (std::size_t axis = 0; axis < 3; ++axis) {
       bool& holds = carried_.holds[axis];
       const bool is_left = handling == MoveHandling::left && move.words[axis] && !is_relative(move, axis);
-      holds = all || (in_doubt && move.known_end[axis]) || (holds && !is_left && !move.fixed[axis]);
+      holds = handling == MoveHandling::grouped || (corrected && move.known_end[axis]) ||
+              (in_doubt && move.known_end[axis]) || (holds && !is_left && !move.fixed[axis]);
     }
     carried_.doubtful = leaves_doubt(move, carried_.doubtful);
   }

@@ -49,6 +49,17 @@ TEST_CASE(
   CHECK(plan.corrected_cut.unknown + plan.held_cut.unknown + plan.left_cut.unknown == 4);
 }
 
+TEST_CASE("holes with a known place are corrected, also where the height behind them is not known") {
+  Program program = three_moves();
+  program.moves[1].known_end = program.moves[2].known_start = {false, false, false};
+  program.moves[2].motion = Motion::rapid;
+  program.moves[2].cycle = CycleMove{};
+  program.moves[2].known_end[2] = false;
+  const MotionPlan plan = motion_plan(program);
+  CHECK(plan.corrected == 3);  // the move before the hole by its shift
+  CHECK(plan.left_rows.empty());
+}
+
 TEST_CASE(
     "a block that no edit can shift is not corrected, for the reason that its run of moves begins with") {
   Program program = three_moves();
