@@ -148,7 +148,7 @@
 
   /**
    * Selects the place to show first: that of a failed verification, else the largest deviation before, which the first
-   * card has, else the first of the worst blocks.
+   * card has, else the first of the worst blocks. A hole of a cycle is in no stretch.
    */
   function selectFirst(context) {
     const {runs, selection} = context;
@@ -160,7 +160,7 @@
     const line = report.summary.before ? report.summary.before.max_line : 0;
     const stretch = curves && line > 0 ? counterflex.lines.stretchOf(curves, line, 'before_mm') : -1;
     const row = report.worst.find((one) => one.line === line);
-    if (stretch < 0) return selectRow(context, run, report.worst[0]);
+    if (stretch < 0) return selectRow(context, run, row || report.worst[0]);
     if (row) context.row = {run, stretch, row};
     selection.set(run, stretch);
   }

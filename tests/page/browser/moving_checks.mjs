@@ -48,6 +48,12 @@ test('a page opens at the place of the first card, and shows the numbers there',
   assert.equal(await page.innerText('#place .vector-sum tr.total td:last-child'), card.split(' ')[0]);
 }));
 
+test('a page of holes alone opens at the largest deviation before, too', () => visit('holes', async (page) => {
+  const {summary, worst} = report_of('holes');
+  assert.notEqual(worst[0].line, summary.before.max_line);
+  assert.match(await page.innerText('#place h3'), new RegExp(`Line ${summary.before.max_line}$`));
+}));
+
 test('every control is reached with the keyboard, the way past the bar first', () => visit('pocket', async (page) => {
   await page.keyboard.press('Tab');
   assert.equal(await page.evaluate(() => document.activeElement.className), 'skip');
