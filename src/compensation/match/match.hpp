@@ -54,8 +54,8 @@ struct MatchedMoves {
   }
 };
 
-/// Knots of the plan before the end of a segment, in order.
-std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s);
+/// Knots of the plan before the end of a segment, in order. `first`: the first corrected move along it.
+std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s, const Move& first);
 
 /// Finds them, move by move. Inserted blocks come before the block that they split, follow its path, and hold
 /// motion, axes and F.

@@ -186,7 +186,7 @@ std::size_t MoveFinder::count_behind(const MatchedMoves& matched, std::size_t fi
   const Move& original = matched.original;
   const PlannedSegment& planned = plan_.segments[*matched.segment];
   if (planned.knots.empty()) return 0;
-  const std::vector<Knot> knots = inner_knots(job_, plan_, *matched.segment);
+  const std::vector<Knot> knots = inner_knots(job_, plan_, *matched.segment, *found_.at(0)->move);
   if (knots.empty()) return 0;
   const double length_mm = length(curve_of(original));
   // Both ends of the text are rounded.

@@ -66,12 +66,18 @@ std::vector<DraftPiece> drafts_of(const Job& job, const MatchedMoves& matched) {
 
 constexpr double least_jump = 1e-9;  // m: of the correction
 
-// A segment that does not begin where the one before it ends is preceded by a jump.
-bool may_jump(const Plan& plan, std::size_t s) {
+// Whether a jump precedes a segment, which does not begin where the one before it ends. Where that one is not
+// planned, or is in the window before, `first` shows it: it begins in the digits of the text.
+bool may_jump(const Job& job, const Plan& plan, std::size_t s, const Move& first) {
   const PlannedSegment& planned = plan.segments[s];
   if (planned.starts_anywhere || planned.knots.empty()) return false;
-  const bool follows = s > 0 && !plan.segments[s - 1].knots.empty();
-  return !follows || (plan.segments[s - 1].knots.back().target - planned.start.target).norm() > least_jump;
+  if (s > 0 && !plan.segments[s - 1].knots.empty())
+    return (plan.segments[s - 1].knots.back().target - planned.start.target).norm() > least_jump;
+  if (!all_known(first.known_start)) return true;
+  const Move& original = job.program.moves[job.path.segments[s].move];
+  const Vector3 off_mm = first.start_mm - in_words_mm(job, original, planned.start.target);
+  const double half_digit = rounding_as_read(first) / std::sqrt(3.0);
+  return off_mm.cwiseAbs().maxCoeff() * mm > half_digit + least_jump;
 }
 
 // Where the curves of the correction of an arc meet, by a step or without one.
@@ -261,10 +267,10 @@ bool is_jump(const Job& job, const Piece& piece) {
 
 }  // namespace
 
-std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s) {
+std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s, const Move& first) {
   const PlannedSegment& planned = plan.segments[s];
   std::vector<Knot> knots;
-  if (may_jump(plan, s)) knots.push_back({planned.start, 0});
+  if (may_jump(job, plan, s, first)) knots.push_back({planned.start, 0});
   if (planned.knots.size() > 1) knots.insert(knots.end(), planned.knots.begin(), planned.knots.end() - 1);
   add_borders(job.path.segments[s].wanted, planned, knots);
   return knots;
@@ -275,7 +281,8 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
   std::vector<DraftPiece> drafts = drafts_of(job, matched);
   if (drafts.size() > 1) {
     const std::size_t s = *matched.segment;
-    find_knots(inner_knots(job, plan, s), rounding_allowance(matched.original, job.options.write), drafts);
+    find_knots(inner_knots(job, plan, s, matched.first()),
+               rounding_allowance(matched.original, job.options.write), drafts);
     const Segment& segment = job.path.segments[s];
     const bool turns = std::ranges::all_of(drafts, [](const DraftPiece& d) { return bool(d.piece.turn); });
     if (segment.turn && turns && length(segment.wanted) == 0)

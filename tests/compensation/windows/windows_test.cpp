@@ -61,6 +61,26 @@ TEST_CASE("a program compensated in windows is the same program, to the byte") {
   }
 }
 
+TEST_CASE("blocks of a few digits are verified at every end of a window, with a jump there and without one") {
+  for (const double blend : {2e-3, 0.0}) {
+    std::string text = "G21 G90\nG0 X20. Y0. Z0.\nG1 X40. F600\n";
+    for (const char* block : {"X40.001", "X40.002", "X40.003", "X80.", "G0 X20.", "G1 X20.001", "X20.002",
+                              "Y0.001", "X20.003 Y0.", "X60.", "X60.002", "G0 Z20."})
+      text += std::string(block) + "\n";
+    Order order = on_mill(text);
+    order.force = constant_force({40, -25, 15, 0, 0, 0}, blend);
+    const WindowRun whole = in_windows(order, whole_program);
+    REQUIRE(!whole.failure);
+    for (const std::size_t least_moves : {1, 2, 3, 8, 9, 10, 17, 18}) {
+      CAPTURE(least_moves);
+      const WindowRun parts = in_windows(order, least_moves);
+      CHECK(parts.windows > 1);
+      CHECK((parts.failure ? parts.failure->what : "") == "");
+      check_same(parts, whole);
+    }
+  }
+}
+
 TEST_CASE("a wrench of its own on every line acts the same in windows, in the feed frame, too") {
   std::string rows = "# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n";
   for (int line = 1; line <= 90; ++line)
