@@ -268,3 +268,27 @@ TEST_CASE("windows of Klartext end outside of contours and bodies, and include a
   CHECK(count("CC X+1 Y+0\nCTP PA+30\nL X+1 Y+0\nL X+2\nL X+3\n") ==
         1);  // the block that uses the CC may be far behind
 }
+
+TEST_CASE("windows of Klartext do not end between the holes of a series, and end again behind it") {
+  const std::string cycle =
+      "CYCL DEF 200 DRILLING ~\n Q200=+2 ~\n Q201=-5 ~\n Q206=150 ~\n Q203=+0 ~\n Q204=+5\n";
+  const std::string cuts = "L Z+50 FMAX\nL X+1 Y+1\nL X+2\nL X+3\nL X+4\nL X+5\nL X+6\nL X+7\nL X+8\nL X+9\n";
+  for (const std::string hole :
+       {"L X+{} Y+0 FMAX\nCYCL CALL\n", "L X+{} Y+0 FMAX\nL IX+1 FMAX M99\n",
+        "L X+{} FMAX\nL Y+3 FMAX M3 M99\nL X+1 Y+2 FMAX\n", "L X+{} Y+0 FMAX\nM99\n"}) {
+    std::string holes;
+    for (int i = 0; i < 9; ++i) holes += fmt::format(fmt::runtime(hole), 10 * i);
+    for (const std::string& definition :
+         {cycle, cycle + "Q203=+1\n", cycle + "CYCL DEF 7.0 DATUM\nCYCL DEF 7.1 X+1\n"}) {
+      const std::string text = "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\n" +
+                               definition + holes + cuts + cycle + holes + cuts + "END PGM A MM\n";
+      for (const std::size_t least : {1U, 4U, 5U, 6U, 7U}) check_windows(text, least);
+      CHECK(in_windows(text, 1).count >= 17);
+    }
+  }
+  for (const std::size_t least : {1U, 3U})
+    check_windows("BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\n" + cycle +
+                      "L X+10 FMAX M89\nL X+20 FMAX\nL X+30 FMAX\nL X+40 Y+1 FMAX M99\n" + cuts +
+                      "END PGM A MM\n",
+                  least);
+}

@@ -4,6 +4,7 @@
 #include <array>
 #include <limits>
 #include <string>
+#include <utility>
 
 namespace counterflex {
 namespace {
@@ -14,10 +15,32 @@ bool concerns_labels(const KlartextBlock& block) {
   return block.head == "LBL" || block.head == "CALL" || block.head == "FN" || block.head == "IF";
 }
 
-std::vector<PlaceStretch> merged(std::vector<PlaceStretch> stretches) {
+/// CYCL DEF 200 and later ones, but not CYCL DEF 247, which sets a preset. `rest`: behind CYCL, squeezed.
+bool defines_cycle(std::string_view rest) {
+  constexpr std::string_view define = "DEF2", preset = "DEF247";
+  const std::size_t end = std::min(rest.find_first_not_of("0123456789", define.size()), rest.size());
+  return rest.starts_with(define) && end == preset.size() && rest.substr(0, end) != preset;
+}
+
+/// CYCL CALL, M99 or M89.
+bool may_call_cycle(std::string_view text, const KlartextBlock& block) {
+  if (block.head == "CYCL") return squeezed(after_head(text, block)).starts_with("CALL");
+  const std::string_view all = text.substr(block.span.begin, block.span.end - block.span.begin);
+  if (all.find("99") == std::string_view::npos && all.find("89") == std::string_view::npos) return false;
+  const std::string words = squeezed(all);
+  for (std::size_t m = words.find('M'); m != std::string::npos; m = words.find('M', m + 1)) {
+    const std::size_t code = std::min(words.find_first_not_of('0', m + 1), words.size());
+    if (const std::string_view digits = std::string_view(words).substr(code, 2);
+        digits == "99" || digits == "89")
+      return true;
+  }
+  return false;
+}
+
+std::vector<TextStretch> merged(std::vector<TextStretch> stretches) {
   std::sort(stretches.begin(), stretches.end(), [](auto& a, auto& b) { return a.first < b.first; });
-  std::vector<PlaceStretch> result;
-  for (const PlaceStretch& stretch : stretches)
+  std::vector<TextStretch> result;
+  for (const TextStretch& stretch : stretches)
     if (!result.empty() && stretch.first <= result.back().last)
       result.back().last = std::max(result.back().last, stretch.last);
     else
@@ -40,10 +63,10 @@ int next_place(int place, const KlartextBlock& block) {
   return concerns_labels(block) ? between + 1 : between;
 }
 
-bool contains_place(const std::vector<PlaceStretch>& stretches, int place) {
-  const auto after = std::upper_bound(stretches.begin(), stretches.end(), place,
-                                      [](int wanted, const PlaceStretch& s) { return wanted < s.first; });
-  return after != stretches.begin() && (after - 1)->last >= place;
+bool contains(const std::vector<TextStretch>& stretches, int at) {
+  const auto after = std::upper_bound(stretches.begin(), stretches.end(), at,
+                                      [](int wanted, const TextStretch& s) { return wanted < s.first; });
+  return after != stretches.begin() && (after - 1)->last >= at;
 }
 
 void KlartextScan::add(std::string_view blocks) {
@@ -52,6 +75,7 @@ void KlartextScan::add(std::string_view blocks) {
     place_ = next_place(place_, block_);
     take_label(blocks);
     take_pole(blocks);
+    take_cycle(blocks);
   }
 }
 
@@ -85,8 +109,19 @@ void KlartextScan::take_pole(std::string_view text) {
   if (pole_uses_.empty() || pole_uses_.back() != use) pole_uses_.push_back(use);
 }
 
+/// Notes a block that may call the cycle that was defined last.
+void KlartextScan::take_cycle(std::string_view text) {
+  if (block_.head == "CYCL" && defines_cycle(squeezed(after_head(text, block_)))) {
+    if (cycle_is_called_ && series_.back().first == series_.back().last) series_.pop_back();
+    cycle_is_called_ = false;
+  }
+  if (block_.parts.empty() || !may_call_cycle(text, block_)) return;
+  if (!std::exchange(cycle_is_called_, true)) series_.push_back({block_.line, block_.line});
+  series_.back().last = block_.line;
+}
+
 /// From a label to the LBL 0 behind it.
-void KlartextScan::add_body(int first, std::vector<PlaceStretch>& stretches) const {
+void KlartextScan::add_body(int first, std::vector<TextStretch>& stretches) const {
   const auto ends = labels_.find("0");
   int last = everywhere;
   if (ends != labels_.end()) {
@@ -96,8 +131,8 @@ void KlartextScan::add_body(int first, std::vector<PlaceStretch>& stretches) con
   stretches.push_back({first, last});
 }
 
-std::vector<PlaceStretch> KlartextScan::uncertain() const {
-  std::vector<PlaceStretch> stretches;
+std::vector<TextStretch> KlartextScan::uncertain() const {
+  std::vector<TextStretch> stretches;
   for (const auto& [name, label] : labels_) {
     const std::vector<int>&set = label.set, &from = label.jumped_to;
     if (name == "Q" && (label.called || !from.empty())) return {{0, everywhere}};
@@ -111,9 +146,9 @@ std::vector<PlaceStretch> KlartextScan::uncertain() const {
 }
 
 KlartextOutline KlartextScan::finish() const {
-  KlartextOutline outline{uncertain(), {}};
+  KlartextOutline outline{uncertain(), {}, series_};
   for (const PoleUse& use : pole_uses_) {
-    const bool followed = use.plain && !contains_place(outline.uncertain, use.place);
+    const bool followed = use.plain && !contains(outline.uncertain, use.place);
     if (!followed && (outline.poles.empty() || outline.poles.back() != use.line))
       outline.poles.push_back(use.line);
   }

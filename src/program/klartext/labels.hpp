@@ -11,8 +11,8 @@
 
 namespace counterflex {
 
-/// Places from `first` to `last`, both included.
-struct PlaceStretch {
+/// Places or lines from `first` to `last`, both included.
+struct TextStretch {
   int first = 0;
   int last = 0;
 };
@@ -23,17 +23,19 @@ std::string label_name(std::string_view text);
 /// The place of `block`, where the block before it is at `place`.
 int next_place(int place, const KlartextBlock& block);
 
-/// Whether one of `stretches`, which are sorted and disjoint, contains `place`.
-bool contains_place(const std::vector<PlaceStretch>& stretches, int place);
+/// Whether one of `stretches`, which are sorted and disjoint, contains a place or line.
+bool contains(const std::vector<TextStretch>& stretches, int at);
 
 /// Properties of a Klartext program that depend on its whole text.
 struct KlartextOutline {
   /// Blocks that may run never or several times: bodies of called subprograms, repeated parts, and blocks
   /// skipped by a jump; sorted and disjoint.
-  std::vector<PlaceStretch> uncertain;
+  std::vector<TextStretch> uncertain;
   /// Lines of the CC whose pole is used by blocks that are not followed, so that no arc about it may move it;
   /// sorted.
   std::vector<int> poles;
+  /// Lines from the first call of a defined cycle to the last one, if there are several; sorted and disjoint.
+  std::vector<TextStretch> series;
 };
 
 /// Scans a text once, in portions of whole blocks.
@@ -60,14 +62,17 @@ class KlartextScan {
 
   void take_label(std::string_view text);
   void take_pole(std::string_view text);
-  void add_body(int first, std::vector<PlaceStretch>& stretches) const;
-  std::vector<PlaceStretch> uncertain() const;
+  void take_cycle(std::string_view text);
+  void add_body(int first, std::vector<TextStretch>& stretches) const;
+  std::vector<TextStretch> uncertain() const;
 
   KlartextBlock block_;
   int place_ = 0;
   int pole_ = 0;  ///< line of the last CC
   std::map<std::string, Label> labels_;
   std::vector<PoleUse> pole_uses_;
+  std::vector<TextStretch> series_;
+  bool cycle_is_called_ = false;  ///< since its definition: the last of `series_` is that of the cycle
 };
 
 }  // namespace counterflex

@@ -351,7 +351,7 @@ bool may_not_run(const KlartextBlock& block, const KlartextReading& r) {
 }
 
 bool may_skip_or_repeat(const KlartextReading& r) {
-  return contains_place(r.outline.uncertain, r.place);
+  return contains(r.outline.uncertain, r.place);
 }
 
 void add_move(KlartextReading& r, Move move) {

@@ -30,9 +30,11 @@ bool KlartextReader::may_end_before(const Move& last, bool anywhere) const {
   const bool alone = followed && !last.takes_no_z && last.group == 0 && !last.arc && !last.polar &&
                      last.handling == Handling::own;
   const bool clear = !state.contour && state.displacements.empty() && !may_skip_or_repeat(reading_);
-  // A move that uses words of a block before it needs that block in its window.
-  const bool words_pending =
-      (state.pole && has_own_words(*state.pole, reading_)) || (state.surface && state.surface->just_set);
+  // A move that uses words of a block before it needs that block in its window. Each hole of a series may use
+  // the surface of the cycle's definition.
+  const bool in_series = state.surface && (state.surface->just_set || state.calls_each ||
+                                           contains(this->outline().klartext.series, block_.line));
+  const bool words_pending = in_series || (state.pole && has_own_words(*state.pole, reading_));
   return across && alone && clear && !words_pending && all_known(last.known_start);
 }
 
