@@ -199,7 +199,11 @@ void add_circle(RapidReading& r, const RobotLine& line, const MoveArguments& mot
       move);
   if (!go_through(motion.targets[0].target, move))
     return not_followed("the points of MoveC and its start lie on a line");
-  if (!is_known_circle_path(r) || !limit_turn(turn_limits(r, motion.targets[0].target), move))
+  if (!is_known_circle_path(r))
+    return not_followed(
+        "how MoveC turns the tool is not known: state CirPathMode\\PathFrame or \\ObjectFrame before it in "
+        "this routine");
+  if (!limit_turn(turn_limits(r, motion.targets[0].target), move))
     return not_followed("MoveC turns the tool relative to the path");
   keep_whole(r, motion, move);
   r.robot.program.moves.push_back(std::move(move));

@@ -197,14 +197,14 @@ TEST_CASE("a function of another RAPID module may cut, as a routine does") {
 
 TEST_CASE("behind a routine of the module CirPathMode is not known if the module sets it") {
   const std::string cut = "MoveJ <0,0,0>,v10,fine,tool0;\n";
-  const auto is_arc = [&](const std::string& call) {
-    const Program program =
-        read_routine("CirPathMode\\ObjectFrame;\n" + call + cut + "MoveC <5,5,0>,<10,0,0>,v10,z1,tool0;\n",
-                     "PROC other()\nCirPathMode\\ToolFrame;\nENDPROC\n");
-    return program.moves.back().arc.has_value();
+  const auto read = [&](const std::string& call) {
+    return read_routine("CirPathMode\\ObjectFrame;\n" + call + cut + "MoveC <5,5,0>,<10,0,0>,v10,z1,tool0;\n",
+                        "PROC other()\nCirPathMode\\ToolFrame;\nENDPROC\n");
   };
-  CHECK(is_arc(""));
-  CHECK_FALSE(is_arc("other;\n"));
+  CHECK(read("").moves.back().arc.has_value());
+  const Program unknown = read("other;\n");
+  CHECK_FALSE(unknown.moves.back().arc.has_value());
+  CHECK(unknown.left_alone.back().why.starts_with("how MoveC turns the tool is not known"));
 }
 
 TEST_CASE("bodies, handlers and interrupts are not followed, calls make the position unknown") {
