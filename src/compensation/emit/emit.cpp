@@ -22,6 +22,8 @@ std::vector<MoveEdit> Emitter::run() {
     state_.doubtful = leaves_doubt(job_.program.moves[m], state_.doubtful);
   }
   leave_pending_alone();
+  for (const LeftAlone& block : job_.program.left_alone)
+    if (!block.machine_position) state_.why_fixed = block.why;
   out_.narrowed = narrowed_contours(job_, edits_);
   out_.other_moves.left = static_cast<std::size_t>(std::ranges::count_if(job_.program.moves, moves_tool));
   for (const MoveEdit& edit : edits_) out_.other_moves.left -= moves_tool(job_.program.moves[edit.move]);

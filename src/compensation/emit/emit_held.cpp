@@ -39,7 +39,7 @@ bool Emitter::rounds_to_nothing(const Move& move, std::size_t axis, double shift
 
 // Why the block is not followed, as the reader notes it at the first of a run of such blocks.
 std::string Emitter::why_fixed(const Move& move) const {
-  std::string why = "the block is not followed";
+  std::string why = state_.why_fixed.empty() ? "the block is not followed" : state_.why_fixed;
   for (const LeftAlone& block : job_.program.left_alone)
     if (line_in_text(block) <= line_in_text(move) && !block.machine_position) why = block.why;
   return why;

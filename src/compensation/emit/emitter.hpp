@@ -17,6 +17,8 @@ struct EmitterState {
   bool doubtful = false;  ///< a block made a position unknown that carries the correction, and it still is
   int group = 0;          ///< contour group that is being emitted
   TextPosition held{};    ///< of the emitted text
+  /// Why the last block that is not followed is not: of the windows before. Empty without such a block.
+  std::string why_fixed{};
 };
 
 /// The motion that a contour group makes in the plane: a turn about Z, and a shift (program coordinates, mm).

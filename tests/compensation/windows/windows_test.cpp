@@ -81,6 +81,20 @@ TEST_CASE("blocks of a few digits are verified at every end of a window, with a 
   }
 }
 
+TEST_CASE("a block that is not followed is refused with the same reason in windows") {
+  Order order = on_mill("G21 G90\nG0 X0 Y0 Z0\nG1 X10 F600\nX20\nX40\nX[30+20] Y20\nX80 Y30\n");
+  order.force = constant_force({40, -25, 15, 0, 0, 0});
+  const WindowRun whole = in_windows(order, whole_program);
+  REQUIRE(whole.failure);
+  for (std::size_t least_moves = 1; least_moves < 10; ++least_moves) {
+    CAPTURE(least_moves);
+    const WindowRun parts = in_windows(order, least_moves);
+    REQUIRE(parts.failure);
+    CHECK(parts.failure->line == whole.failure->line);
+    CHECK(parts.failure->what == whole.failure->what);
+  }
+}
+
 TEST_CASE("a wrench of its own on every line acts the same in windows, in the feed frame, too") {
   std::string rows = "# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n";
   for (int line = 1; line <= 90; ++line)
