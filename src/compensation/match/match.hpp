@@ -54,6 +54,10 @@ struct MatchedMoves {
   }
 };
 
+/// Whether fractions of a segment are found by its turn: it has no way, or one of which rounding and what
+/// remains of the tolerance are too large a part.
+bool is_found_by_turn(const Segment& segment);
+
 /// Knots of the plan before the end of a segment, in order. `first`: the first corrected move along it.
 std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s, const Move& first);
 
@@ -73,7 +77,7 @@ class MoveFinder {
   std::size_t count_behind(const MatchedMoves& matched, std::size_t first, std::size_t others,
                            const Vector3& end_mm, double near_mm);
   Vector3 expected_end_mm(const Move& original, const std::optional<Vector3>& planned_mm) const;
-  std::optional<OrientationNumbers> expected_angles(const MatchedMoves& matched) const;
+  std::optional<OrientationNumbers> expected_turn(const MatchedMoves& matched) const;
   std::optional<Vector3> planned_shift_mm(const Move& original, std::optional<std::size_t> segment) const;
 
   const Job& job_;
@@ -129,15 +133,15 @@ struct DraftPiece {
 
 /// Appends the pieces of matched moves that have a segment. A point inside a segment that is within the
 /// tolerance of a knot of the plan has the knot's fraction. Any other gets the fraction to which it projects:
-/// on a line along it, on an arc by its angle about the centre, over all turns; no error of a fraction
-/// reaches the next one.
+/// on a line along it, on an arc by its angle about the centre, over all turns, in a segment that
+/// `is_found_by_turn` by its turn; no error of a fraction reaches the next one.
 void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
                 std::vector<DraftPiece>& pieces);
 
-/// The fraction of an inserted point is that of the place of the tip along the segment, found from the
-/// projected one by Newton's method. A jump of the correction, and what goes backwards, gives no piece: what
-/// follows begins where it ends, and is judged from there on. Of several in a row those behind the first are
-/// judged, too, where they do not begin at a knot of the plan.
+/// The fraction of an inserted point is that of the place, or of the turn, of the tip along the segment,
+/// found from the projected one by Newton's method. A jump of the correction, and what goes backwards, gives
+/// no piece: what follows begins where it ends, and is judged from there on. Of several in a row those behind
+/// the first are judged, too, where they do not begin at a knot of the plan.
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts);
 
 }  // namespace counterflex

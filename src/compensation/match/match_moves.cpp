@@ -153,6 +153,12 @@ std::optional<Failure> point_failure(const Job& job, const MatchedMoves& matched
   return std::nullopt;
 }
 
+// The angle between two orientations (deg). Angles that the control interpolates differ by full turns, too.
+double angle_deg(const MoveOrientation& of, const OrientationNumbers& a, const OrientationNumbers& b) {
+  if (of.by_angles) return turned_deg(a, b);
+  return rotation_between(rotation_of(of.form, a), rotation_of(of.form, b)).norm() / deg;
+}
+
 }  // namespace
 
 std::optional<Vector3> MoveFinder::planned_shift_mm(const Move& original,
@@ -170,13 +176,14 @@ Vector3 MoveFinder::expected_end_mm(const Move& original, const std::optional<Ve
   return original.end_mm + held + *planned_mm - *planned_shift_mm_;
 }
 
-// The angles at the end of a block that only turns the tool; nothing for other blocks.
-std::optional<OrientationNumbers> MoveFinder::expected_angles(const MatchedMoves& matched) const {
+// The orientation at the end of a feed move that is found by its turn; nothing for other moves.
+std::optional<OrientationNumbers> MoveFinder::expected_turn(const MatchedMoves& matched) const {
   const Move& original = matched.original;
-  if (!only_turns(original)) return std::nullopt;
-  const bool planned = matched.segment && !plan_.segments[*matched.segment].knots.empty();
-  if (!planned) return original.orientation->end;
-  return turned_words(job_, original, 1, plan_.segments[*matched.segment].knots.back().turn);
+  if (!matched.segment || original.motion != Motion::feed) return std::nullopt;
+  const std::size_t s = *matched.segment;
+  if (!is_found_by_turn(job_.path.segments[s])) return std::nullopt;
+  if (plan_.segments[s].knots.empty()) return original.orientation->end;
+  return turned_words(job_, original, 1, plan_.segments[s].knots.back().turn);
 }
 
 // How many more moves from `first` on end there, too, as the plan has it: a jump of the correction may be
@@ -228,10 +235,11 @@ std::size_t MoveFinder::count(const MatchedMoves& matched, std::size_t most, std
     if (turns_rigidly) return way.arc ? way.arc->sweep * length_mm / axis.sweep : 0.0;
     return curve.arc ? angle_about(axis, way) * length_mm / axis.sweep : length(way);
   };
-  // A block that only turns the tool may have several pieces that end at one place.
-  const std::optional<OrientationNumbers> end_angles = expected_angles(matched);
+  // A move that is found by its turn may have several pieces that end at one place.
+  const std::optional<OrientationNumbers> end_turn = expected_turn(matched);
   const auto off_deg = [&](const Move& move) {
-    return end_angles && move.orientation ? turned_deg(move.orientation->end, *end_angles) : 0;
+    if (!end_turn || !move.orientation) return 0.0;
+    return angle_deg(*original.orientation, move.orientation->end, *end_turn);
   };
   std::size_t best = 0;
   double best_miss = std::numeric_limits<double>::infinity(), gone_mm = 0;

@@ -17,6 +17,15 @@ constexpr int most_refinements = 20;      // three suffice but at kinks of the f
 constexpr double longest_secant = 4;      // of the plain step
 constexpr double refined_enough = 1e-10;  // m
 
+// The way that counts as much as a turn (m/rad). At this quotient the default tolerances of place and tilt
+// are the same part of a segment.
+constexpr double way_of_turn = 0.25 * mm / deg;
+
+// By how much words round an orientation: half a digit of each of three angles (rad).
+constexpr double turn_rounding = 3 * 0.5e-4 * deg;
+
+constexpr double rate_step = 1e-4;  // of a fraction: a rate of turn is right to its square
+
 double fraction_on_line(const Curve& line, const Vector3& p) {
   const Vector3 d = line.end - line.start;
   return (p - line.start).dot(d) / d.squaredNorm();
@@ -31,6 +40,11 @@ double fraction_on_arc(const Curve& arc, const Vector3& p, double expected) {
 // By how much words may round the places of a move (m).
 double rounding_of(const Job& job, const Move& move) {
   return roundings * rounding_allowance(move, job.options.write);
+}
+
+// What fractions of a segment are parts of (m).
+double extent_of(const Segment& segment) {
+  return is_found_by_turn(segment) ? way_of_turn * turn_of(segment) : length(segment.wanted);
 }
 
 constexpr double not_known = -1;  // a fraction
@@ -97,12 +111,21 @@ void settle(DraftPiece& draft, double u) {
   draft.settled = true;
 }
 
+// How far a piece ends from a knot (m).
+double miss_of(const Segment& segment, const Piece& piece, const Knot& knot) {
+  const double way = (piece.commanded.end - knot.target).norm();
+  if (!is_found_by_turn(segment) || !piece.turn) return way;
+  const Matrix3 R = exp_so3(knot.turn) * orientation_at(*segment.turn, knot.u);
+  return std::hypot(way, way_of_turn * rotation_between(piece.turn->end, R).norm());
+}
+
 // Whether a piece from `next` on ends at a knot; `next` goes behind it.
-bool find_knot(const Knot& knot, double rounding, std::vector<DraftPiece>& drafts, std::size_t& next) {
+bool find_knot(const Segment& segment, const Knot& knot, double rounding, std::vector<DraftPiece>& drafts,
+               std::size_t& next) {
   std::size_t best = drafts.size();
   double best_miss = rounding;
   for (std::size_t j = next; j + 1 < drafts.size(); ++j) {
-    const double miss = (drafts[j].piece.commanded.end - knot.target).norm();
+    const double miss = miss_of(segment, drafts[j].piece, knot);
     if (miss >= best_miss) continue;
     best = j;
     best_miss = miss;
@@ -113,8 +136,9 @@ bool find_knot(const Knot& knot, double rounding, std::vector<DraftPiece>& draft
   return true;
 }
 
-bool find_jump(const Knot& knot, double rounding, std::vector<DraftPiece>& drafts, std::size_t& next) {
-  if ((drafts[next].piece.commanded.end - knot.target).norm() > rounding) return false;
+bool find_jump(const Segment& segment, const Knot& knot, double rounding, std::vector<DraftPiece>& drafts,
+               std::size_t& next) {
+  if (miss_of(segment, drafts[next].piece, knot) > rounding) return false;
   settle(drafts[next], knot.u);
   ++next;
   return true;
@@ -123,14 +147,16 @@ bool find_jump(const Knot& knot, double rounding, std::vector<DraftPiece>& draft
 // Points that were inserted where the plan has a knot, to the rounding of its words, belong to its fraction.
 // Where the force steps, one move ends on this side of the step and the next one on the other. Other points
 // are projected: their fraction must not depend on the tolerance.
-void find_knots(std::span<const Knot> knots, double rounding, std::vector<DraftPiece>& drafts) {
+void find_knots(const Segment& segment, std::span<const Knot> knots, double rounding,
+                std::vector<DraftPiece>& drafts) {
+  if (is_found_by_turn(segment)) rounding = std::hypot(rounding, way_of_turn * turn_rounding);
   std::size_t next = 0;  // piece
   const Knot* last = nullptr;
   for (const Knot& knot : knots) {
     if (next + 1 >= drafts.size()) return;
     const bool behind = last != nullptr && last->u == knot.u;
-    const bool found =
-        behind ? find_jump(knot, rounding, drafts, next) : find_knot(knot, rounding, drafts, next);
+    const bool found = behind ? find_jump(segment, knot, rounding, drafts, next)
+                              : find_knot(segment, knot, rounding, drafts, next);
     last = found ? &knot : nullptr;
   }
 }
@@ -154,13 +180,7 @@ Vector3 turned_to(const Turn& turn, const Turn& to, bool at_end) {
   return log_so3(turn.start.transpose() * (at_end ? to.end : to.start));
 }
 
-double way_of_segment(const Job& job, const DraftPiece& draft) {
-  const std::size_t s = draft.piece.segment;
-  return s == no_segment ? 0 : length(job.path.segments[s].wanted);
-}
-
-// The fraction at the end of each piece of a segment that only turns the tool, by its turn: places differ too
-// little. The correction of the turn changes evenly. A jump at the start stays one.
+// The correction of the turn changes evenly enough for a first guess.
 void project_turn(const Turn& wanted, std::vector<DraftPiece>& drafts) {
   const Vector3 whole = turned_to(wanted, wanted, true),
                 c0 = turned_to(wanted, *drafts.front().piece.turn, false),
@@ -168,8 +188,7 @@ void project_turn(const Turn& wanted, std::vector<DraftPiece>& drafts) {
   double last = 0;
   for (DraftPiece& draft : drafts) {
     draft.piece.u0 = last;
-    const bool is_jump = draft.settled && draft.piece.u1 == 0;
-    if (!is_jump && &draft != &drafts.back()) {
+    if (!draft.settled) {
       const Vector3 to = turned_to(wanted, *draft.piece.turn, true);
       const double u = (to - c0).dot(whole) / (whole + c1 - c0).dot(whole);
       draft.piece.u1 = std::clamp(u, last, inner_end);
@@ -225,6 +244,20 @@ double secant_step(const OpenEnd& last, double u, double step) {
   return secant * step > 0 && std::abs(secant) < longest_secant * std::abs(step) ? secant : step;
 }
 
+// By how much the tip is ahead of the fraction `u` (fraction), by the turn or by the place.
+double lead_of(const Segment& segment, double u, const Pose& X_MT) {
+  if (!is_found_by_turn(segment)) {
+    const Vector3 miss = X_MT.p - point_at(segment.wanted, u);
+    return miss.dot(direction_at(segment.wanted, u)) / length(segment.wanted);
+  }
+  const Turn& turn = *segment.turn;
+  const Vector3 rate =
+      rotation_between(orientation_at(turn, u + rate_step), orientation_at(turn, u - rate_step)) /
+      (2 * rate_step);
+  if (rate.isZero(0)) return 0;
+  return rotation_between(X_MT.R, orientation_at(turn, u)).dot(rate) / rate.squaredNorm();
+}
+
 // Moves the ends of the pieces in `open` to where they put the tip; whether none has moved far.
 bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
             std::vector<DraftPiece>& drafts) {
@@ -244,13 +277,12 @@ bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
   double largest = 0;
   for (std::size_t k = 0; k < open.size(); ++k) {
     Piece &piece = drafts[open[k].piece].piece, &next = drafts[open[k].piece + 1].piece;
-    const Curve& wanted = job.path.segments[piece.segment].wanted;
-    const Vector3 miss = answers[k].X_MT.p - point_at(wanted, piece.u1);
-    const double whole = length(wanted), step = miss.dot(direction_at(wanted, piece.u1)) / whole;
+    const Segment& segment = job.path.segments[piece.segment];
+    const double step = lead_of(segment, piece.u1, answers[k].X_MT);
     const double u = std::clamp(piece.u1 + secant_step(open[k], piece.u1, step), 0.0, inner_end);
     open[k].u = piece.u1;
     open[k].step = step;
-    largest = std::max(largest, std::abs(u - piece.u1) * whole);
+    largest = std::max(largest, std::abs(u - piece.u1) * extent_of(segment));
     piece.u1 = next.u0 = u;
   }
   return largest < refined_enough;
@@ -260,12 +292,17 @@ bool refine(const Job& job, PlaceSolver& solver, std::vector<OpenEnd>& open,
 bool is_jump(const Job& job, const Piece& piece) {
   if (piece.u1 <= piece.u0) return true;
   if (piece.u0 > 0 || piece.u1 == 1) return false;
-  const Move& move = job.program.moves[job.path.segments[piece.segment].move];
-  const double whole = length(job.path.segments[piece.segment].wanted);
-  return whole > 0 && (piece.u1 - piece.u0) * whole < rounding_of(job, move);
+  const Segment& segment = job.path.segments[piece.segment];
+  const double rounding = is_found_by_turn(segment) ? way_of_turn * turn_rounding
+                                                    : rounding_of(job, job.program.moves[segment.move]);
+  return (piece.u1 - piece.u0) * extent_of(segment) < rounding;
 }
 
 }  // namespace
+
+bool is_found_by_turn(const Segment& segment) {
+  return segment.turn && length(segment.wanted) <= way_of_turn * turn_of(segment);
+}
 
 std::vector<Knot> inner_knots(const Job& job, const Plan& plan, std::size_t s, const Move& first) {
   const PlannedSegment& planned = plan.segments[s];
@@ -281,11 +318,11 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
   std::vector<DraftPiece> drafts = drafts_of(job, matched);
   if (drafts.size() > 1) {
     const std::size_t s = *matched.segment;
-    find_knots(inner_knots(job, plan, s, matched.first()),
-               rounding_allowance(matched.original, job.options.write), drafts);
     const Segment& segment = job.path.segments[s];
+    find_knots(segment, inner_knots(job, plan, s, matched.first()),
+               rounding_allowance(matched.original, job.options.write), drafts);
     const bool turns = std::ranges::all_of(drafts, [](const DraftPiece& d) { return bool(d.piece.turn); });
-    if (segment.turn && turns && length(segment.wanted) == 0)
+    if (turns && is_found_by_turn(segment))
       project_turn(*segment.turn, drafts);
     else
       project(segment.wanted, corner_knots(job, plan, s), rounding_of(job, matched.original), drafts);
@@ -296,7 +333,7 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
 std::vector<Piece> refined(const Job& job, std::vector<DraftPiece> drafts) {
   std::vector<OpenEnd> open;
   for (std::size_t i = 0; i < drafts.size(); ++i)
-    if (!drafts[i].settled && way_of_segment(job, drafts[i]) > 0) open.push_back({i});
+    if (!drafts[i].settled) open.push_back({i});
   PlaceSolver solver(job);
   for (int k = 0; k < most_refinements && !open.empty(); ++k)
     if (refine(job, solver, open, drafts)) break;
