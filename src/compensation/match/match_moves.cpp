@@ -17,7 +17,7 @@ namespace {
 
 constexpr double length_share = 0.1;  // a difference of lengths counts for less than one of places
 constexpr double nearer_mm = 1e-9;
-constexpr double same_turn_deg = short_turn_deg / 8;
+constexpr double same_turn_deg = short_turn_deg / 80;  // a quarter of the shortest last turn
 
 // The pieces of a robot's statement are copies of it.
 bool are_copies(const CorrectedMove& found) {

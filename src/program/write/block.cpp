@@ -63,6 +63,9 @@ std::vector<PlannedStep> round_steps(const Original& o, const Plan& plan, TextPo
   return steps;
 }
 
+/// A last turn without a way is not shorter: ten digits of an angle.
+constexpr double shortest_turn_deg = short_turn_deg / 20;
+
 /// Digits for which the time of a piece is exact to a millionth.
 int feed_decimals(double feed) {
   return feed > 0 ? std::clamp(6 - static_cast<int>(std::floor(std::log10(feed))), 1, 9) : 1;
@@ -100,11 +103,16 @@ bool turns_on_the_way(const Move& move, const PlannedStep& piece) {
 }
 
 /// The end of a block that only turns the tool is reached by a turn without a way: there F is that of the
-/// block, and stays it for the blocks behind.
-void add_last_turn(const Original& o, const MoveEdit& edit, const Step& last, Plan& plan) {
+/// block, and stays it for the blocks behind. The way ends before that turn: it is so short that the way is
+/// early by half a digit at most, as far as the digits of angles allow.
+void add_last_turn(const Original& o, const MoveEdit& edit, const Step& last, const WriteOptions& options,
+                   Plan& plan) {
   const OrientationNumbers& start = *last.before.orientation;
   OrientationNumbers numbers = edit.orientation ? *edit.orientation : o.move.orientation->end;
-  const double share = short_turn_deg / 2 / turned_deg(start, numbers);
+  const double turn = turned_deg(start, numbers),
+               digit_mm = mm_per(o.move.unit) * std::pow(10.0, -decimals_of(o.move, options).inserted),
+               share = std::clamp(digit_mm / 2 / way_mm(last), shortest_turn_deg / turn,
+                                  short_turn_deg / 2 / turn);
   for (std::size_t i = 0; i < numbers.size(); ++i) numbers[i] -= share * (numbers[i] - start[i]);
   plan.stops.insert(plan.stops.end() - 1, {{edit.end_mm, {}, numbers}, plan.stops.back().motion});
   plan.own = own_stop(o, plan.stops.size());
@@ -130,7 +138,7 @@ void keep_time_of_turn(const Original& o, const MoveEdit& edit, const TextPositi
   const bool knows_feed = o.move.feed_mm_min > 0 && (word == nullptr || word->literal);
   if (!o.move.may_split || o.move.block_delete || !knows_feed) refuse_turn(o);
   if (may_hurry(steps.back())) {
-    add_last_turn(o, edit, steps.back().step, plan);
+    add_last_turn(o, edit, steps.back().step, options, plan);
     steps = round_steps(o, plan, before, options);
   }
   const double deg_per_min = o.move.feed_mm_min / mm_per(o.move.unit);

@@ -139,6 +139,9 @@ TEST_CASE("pieces of a block that only turns the tool have its time, and the las
         "G1 F300\nA10. F200 M8\nX50.030 Y0.040 A29.9900 F0.5002501\nA30.0000 F200\n");
   CHECK(divided_turn("G1 F300\nA30\n", inserted, inserted) ==
         "G1 F300\nX50.030 A10.0000 F0.9000000\nA30 F300.\n");
+  // The way of 2 mm ends half a digit before its time: 0.005 degrees.
+  CHECK(divided_turn("G1 F300\nA30\n", inserted, {50.03, 2, 0}) ==
+        "G1 F300\nX50.030 A10.0000 F0.9000000\nY2.000 A29.9950 F30.00750\nA30 F300.\n");
   CHECK(divided_turn("G1 F300\nA30\n", {50, 0, 0}, {50, 0, 0}) == "G1 F300\nA10.0000\nA30\n");
   // F is in degrees per minute under G20, too: 2 s, and 0.0100 inch.
   CHECK(divided_turn("G1 F300\nA30\n", {50.8, 0, 0}, {50.8, 0, 0}, "G20 G90 G94 G0 X1.99 Y0 Z0 A0 B0 C0\n") ==
