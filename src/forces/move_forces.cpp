@@ -105,20 +105,20 @@ class MoveForces {
                      segment.feed_m_s, move.spindle_rpm};
     pieces_.clear();
     ForceRemarks remarks;
-    raw_forces_->append_to(i, 0, pieces_, remarks);
+    raw_forces_->append_to(i, 0, 0, pieces_, remarks);
     if (!remarks.unforced.empty()) result.why = remarks.unforced.front().why;
     result.comment = move.force.has_value();
     result.comment_altered =
         result.comment && !move.force->isZero(0) && (source_.scale != 1 || in_air(source_, move));
-    const AxesAlong axes = axes_of_feed(i);
-    take_wrenches(axes, segment, result);
+    const Segment along = with_force_end(segment);
+    const AxesAlong axes = axes_of_feed(i, along);
+    take_wrenches(axes, along, result);
     if (coverage_ && !in_air(source_, move)) take_model(i, axes, result);
     return result;
   }
 
  private:
-  AxesAlong axes_of_feed(std::size_t i) const {
-    const Segment& segment = path_.segments[i];
+  AxesAlong axes_of_feed(std::size_t i, const Segment& segment) const {
     const std::size_t each = R_MT_.size() == 1 ? 1 : R_MT_.size() / path_.segments.size();
     const std::span<const Matrix3> R_MT(R_MT_.data() + (R_MT_.size() == 1 ? 0 : i * each), each);
     return {ForceFrame::feed, segment, path_.frames[segment.frame].X_MW.R, R_MT};

@@ -24,7 +24,10 @@ struct Acting {
 Acting acting(const std::string& text, const ForceSource& source, std::size_t least_moves) {
   Acting all;
   FileReader bytes = FileReader::of_bytes(text);
-  ProgramReader reader(bytes, "p.ngc", {}, least_moves);
+  ReadOptions read;
+  read.dialect = "linuxcnc";
+  read.tool_orientation = true;
+  ProgramReader reader(bytes, "p.ngc", read, least_moves);
   PathEnd end;
   ForceTail tail;
   while (reader.next()) {
@@ -122,6 +125,14 @@ TEST_CASE("forces of a program in windows are those of the whole: constant, by l
   check_same_in_windows(commented, comments, 10);
 }
 
+TEST_CASE("blocks that only turn the tool are the same in windows") {
+  std::string text = "G21 G90 G17 G0 X0 Y0 Z5 A0 B0 C0\nG1 Z0 F600\n";
+  for (int block = 1; block <= 60; ++block)
+    text += fmt::format("X{:.1f}\nA{:.1f}\n", 0.7 * block, 0.4 * block);
+  for (const double blend : {0.0, 0.5e-3, 2e-3, 5e-3})
+    check_same_in_windows(text, from_csv(on_tool + rows_by_line(122), blend), 10);
+}
+
 TEST_CASE("a feed run of any length is split into windows if it is longer than two blends") {
   std::string text = "G21 G90 G17 G0 X0 Y0 Z0\nG1 F100\n";
   for (int block = 1; block <= 400; ++block) text += fmt::format("X{:.1f}\n", 0.1 * block);
@@ -188,7 +199,10 @@ TEST_CASE("the cover of a profile is checked over all windows") {
     const auto cover = [&](std::size_t least_moves) -> std::string {
       try {
         FileReader bytes = FileReader::of_bytes(text);
-        ProgramReader reader(bytes, "p.ngc", {}, least_moves);
+        ReadOptions read;
+        read.dialect = "linuxcnc";
+        read.tool_orientation = true;
+        ProgramReader reader(bytes, "p.ngc", read, least_moves);
         ForceSource source = from_csv(on_tool + rows);
         ForceCover all(source);
         PathEnd end;

@@ -54,9 +54,10 @@ void refuse_move(const std::string& program, const MoveForce& move) {
   constexpr std::string_view instead = "give the other commands the same forces as this one, or use --json";
   if (move.only_z)
     refuse(ErrorKind::machine_or_force,
-           fmt::format("the feed is parallel to the tool axis, and the force of {:.6g} N is not: a profile "
-                       "in the feed frame cannot represent it; {}",
-                       move.largest_N, instead));
+           fmt::format("the {} {:.6g} N is not{}: a profile in the feed frame cannot represent it; {}",
+                       move.length > 0 ? "feed is parallel to the tool axis, and the force of"
+                                       : "block only turns the tool, and the force of",
+                       move.largest_N, move.length > 0 ? "" : " parallel to the tool axis", instead));
   if (move.steps.empty())
     refuse(ErrorKind::machine_or_force,
            fmt::format("the force, {:.6g} N at most, changes along this move: a "

@@ -163,29 +163,54 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
   places_.reserve(path.segments.size());
   pieces_.reserve(path.segments.size() + (before.open ? before.open->pieces.size() : 0));
   bool open = continues_run(before.open, window, path);
-  if (open) take_up(*before.open);
+  // Where the run has come. Segments that only turn the tool count: this may be more than the path length.
+  double reached = 0;
+  std::size_t first_segment = 0;
+  if (open) {
+    take_up(*before.open);
+    reached = before.open->run.s1;
+  }
+  const auto close = [&] {
+    const std::size_t first_step = steps_.size();
+    close_run(source.blend);
+    for (std::size_t k = first_step; k < steps_.size(); ++k) {
+      const auto in_run = std::span(places_).subspan(first_segment);
+      const auto at = std::ranges::lower_bound(in_run, steps_[k], {}, &Place::s1);
+      assert(at != in_run.end());
+      const Segment& segment = path.segments[first_segment + static_cast<std::size_t>(at - in_run.begin())];
+      steps_[k] = std::min(segment.s_start + (steps_[k] - at->s0), segment.s_end);
+    }
+  };
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
     add_others_to(segment.move);
     if (i > 0 && open && !joins_previous(window, path, i)) {
-      close_run(source.blend);
+      close();
       open = false;
     }
     if (segment.cutting && !open) {
+      reached = segment.s_start;
+      first_segment = i;
       runs_.push_back({segment.s_start, segment.s_start, 0, pieces_.size(), 0, corners_.size(), 0});
       open = true;
     }
     // A cycle of G-code drills away from the end of its move, one that is called drills there.
     const bool calls = window.moves[segment.move].makes_hole;
-    places_.push_back(
-        {segment.s_start, segment.s_end, open ? runs_.size() - 1 : no_run, calls ? segment.move : no_run});
-    if (open) raw_forces.append_to(i, runs_.back().first_piece, pieces_, remarks);
+    const std::size_t holes_move = calls ? segment.move : no_run;
+    if (!open) {
+      places_.push_back({segment.s_start, segment.s_end, no_run, holes_move});
+      continue;
+    }
+    const double shift = reached - segment.s_start, end = force_end(segment) + shift;
+    places_.push_back({reached, end, runs_.size() - 1, holes_move});
+    raw_forces.append_to(i, shift, runs_.back().first_piece, pieces_, remarks);
+    reached = end;
   }
   add_others_to(window.moves.size());
   notes_ = std::move(remarks.notes);
   unforced_ = std::move(remarks.unforced);
   if (!open) return;
-  close_run(source.blend);
+  close();
   leave_tail(window, path, source.blend);
 }
 

@@ -20,6 +20,7 @@ namespace {
 constexpr double parallel = 1e-6;
 
 constexpr std::string_view no_lateral_direction = "the feed is parallel to the tool axis";
+constexpr std::string_view no_feed = "the block only turns the tool";
 constexpr std::string_view given_zero = "the force given for it is zero";
 constexpr std::string_view not_given = "no force is given for it";
 constexpr std::string_view not_in_holes = "the rows of a profile do not act in holes of cycles";
@@ -29,6 +30,10 @@ constexpr std::string_view in_the_air = "it is wholly above --air-above";
 // computed.
 constexpr double same_slope = 1e-9;
 constexpr int slopes_per_piece = 10;
+
+// Segments that only turn the tool count this for each radian (m), and at least that in all.
+constexpr double turn_counts = mm / deg;
+constexpr double least_turn_counts = 1e-6;
 
 // Keys closer than this to the end of a segment act at the end (m).
 constexpr double shortest_piece = 1e-9;
@@ -58,9 +63,12 @@ bool keeps(const ForcePiece& piece) {
   return axial(piece.F0) || axial(piece.F1);
 }
 
-ForceNote loss_at(int line) {
-  return {line,
-          fmt::format("{}: of the force in the feed frame only the z component acts", no_lateral_direction)};
+ForceNote loss_at(int line, std::string_view why) {
+  return {line, fmt::format("{}: of the force in the feed frame only the z component acts", why)};
+}
+
+bool only_turns(const Segment& segment) {
+  return length(segment.wanted) == 0;
 }
 
 // The direction in which a cycle drills, axes of the work frame.
@@ -112,6 +120,17 @@ std::optional<SlopeLimit> limit_between(const SlopeAt& slope, double from, doubl
 }
 
 }  // namespace
+
+double force_end(const Segment& segment) {
+  if (segment.s_end > segment.s_start) return segment.s_end;
+  return segment.s_start + std::max(turn_counts * turn_of(segment), least_turn_counts);
+}
+
+Segment with_force_end(const Segment& segment) {
+  Segment along = segment;
+  along.s_end = force_end(segment);
+  return along;
+}
 
 ForceAxes feed_axes(const Vector3& feed_M, const Matrix3& R_MT) {
   const Vector3 z = R_MT.col(2), lateral = z.cross(feed_M.normalized());
@@ -202,9 +221,16 @@ RawForces::RawForces(const ForceSource& source, const Program& program, const To
   assert(R_MT.size() == 1 || (!R_MT.empty() && R_MT.size() % path.segments.size() == 0));
 }
 
-void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
-                          ForceRemarks& remarks) {
+void RawForces::append_to(std::size_t i, double shift, std::size_t first_piece,
+                          std::vector<ForcePiece>& pieces, ForceRemarks& remarks) {
   const Segment& segment = path_.segments[i];
+  if (segment.s_end > segment.s_start) return append_along(segment, i, shift, first_piece, pieces, remarks);
+  append_along(with_force_end(segment), i, shift, first_piece, pieces, remarks);
+}
+
+void RawForces::append_along(const Segment& segment, std::size_t i, double shift, std::size_t first_piece,
+                             std::vector<ForcePiece>& pieces, ForceRemarks& remarks) {
+  const std::string_view why_lost = only_turns(segment) ? no_feed : no_lateral_direction;
   std::string why;
   bool forced = false, lost = false;
   const auto take = [&](const AxesAlong& axes, bool first) {
@@ -214,12 +240,11 @@ void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
       why_none = given_zero;
     } else if (only_z && std::any_of(stretch_.pieces.begin(), stretch_.pieces.end(), loses)) {
       lost = true;
-      if (std::none_of(stretch_.pieces.begin(), stretch_.pieces.end(), keeps))
-        why_none = no_lateral_direction;
+      if (std::none_of(stretch_.pieces.begin(), stretch_.pieces.end(), keeps)) why_none = why_lost;
     }
     forced = forced || why_none.empty();
     if (why.empty()) why = why_none;
-    append_turned(segment, axes, first_piece, first, pieces);
+    append_turned(segment, axes, shift, first_piece, first, pieces);
   };
   const auto axes_in = [&](ForceFrame frame) {
     return AxesAlong(frame, segment, path_.frames[segment.frame].X_MW.R, orientations(i));
@@ -231,12 +256,13 @@ void RawForces::append_to(std::size_t i, std::size_t first_piece, std::vector<Fo
   } else {
     for (const ForceStretch& stretch : coverage_.stretches(i)) {
       const AxesAlong axes = axes_in(stretch.rule != nullptr ? frame_of(*stretch.rule) : ForceFrame::machine);
-      give(stretch, i, axes);
+      give(stretch, i, segment, axes);
       take(axes, stretch.from == 0);
     }
   }
-  if (lost) remarks.notes.push_back(loss_at(segment.line));
-  if (!forced) remarks.unforced.push_back({segment.line, segment.s_end - segment.s_start, why});
+  if (lost) remarks.notes.push_back(loss_at(segment.line, why_lost));
+  if (!forced)
+    remarks.unforced.push_back({segment.line, path_.segments[i].s_end - path_.segments[i].s_start, why});
 }
 
 Vector6 RawForces::in_hole(std::size_t m, const Matrix3& R_MT, ForceRemarks& remarks) {
@@ -247,7 +273,7 @@ Vector6 RawForces::in_hole(std::size_t m, const Matrix3& R_MT, ForceRemarks& rem
                                            : given_in_hole(move, coverage_.hole(m), way.dot(R_MT.col(2)));
   const ForceAxes axes = axes_of(given.frame, way, R_MW, R_MT);
   const bool loses = axes.only_z && lateral(given.F);
-  if (loses) remarks.notes.push_back(loss_at(move.line));
+  if (loses) remarks.notes.push_back(loss_at(move.line, no_lateral_direction));
   const Vector6 F = source_.scale * in_machine_axes(axes, given.F);
   if (given.why.empty() && F.isZero(0)) given.why = loses ? no_lateral_direction : given_zero;
   const std::size_t holes = move.cycle ? static_cast<std::size_t>(count_of_holes(move)) : 1;
@@ -277,8 +303,8 @@ void RawForces::give_same(double s0, double s1, const Vector6& F, ForceFrame fra
   stretch_.why.clear();
 }
 
-void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes) {
-  const Segment& segment = path_.segments[i];
+void RawForces::give(const ForceStretch& stretch, std::size_t i, const Segment& segment,
+                     const AxesAlong& axes) {
   const double length = segment.s_end - segment.s_start;
   const double s0 = segment.s_start + stretch.from * length,
                s1 = stretch.to == 1 ? segment.s_end : segment.s_start + stretch.to * length;
@@ -292,7 +318,7 @@ void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
   if (const auto* force = std::get_if<ConstantForce>(&rule->content))
     return give_same(s0, s1, force->F, force->frame);
   if (const auto* response = std::get_if<CutResponse>(&rule->content))
-    return give_cut(*response, s0, s1, i, axes);
+    return give_cut(*response, s0, s1, segment, axes);
   const auto& profile = std::get<ForceProfile>(rule->content);
   const KeySpan& keys = coverage_.keys(*rule, i);
   const double range = keys.end - keys.start;
@@ -306,9 +332,13 @@ void RawForces::give(const ForceStretch& stretch, std::size_t i, const AxesAlong
 
 // If the slope changes along the segment, as on an upright arc, the force is linear between close places. It
 // steps where the feed comes along the tool axis.
-void RawForces::give_cut(const CutResponse& response, double s0, double s1, std::size_t i,
+void RawForces::give_cut(const CutResponse& response, double s0, double s1, const Segment& segment,
                          const AxesAlong& axes) {
-  const Segment& segment = path_.segments[i];
+  if (only_turns(segment)) {
+    give_same(s0, s1, Vector6::Zero(), ForceFrame::machine);
+    stretch_.why = fmt::format("{}: the model has no chips for it", no_feed);
+    return;
+  }
   const double rpm = program_.moves[segment.move].spindle_rpm;
   const auto slope = [&](double s) {
     const double u = (s - segment.s_start) / (segment.s_end - segment.s_start);
@@ -353,13 +383,15 @@ void RawForces::give_cut(const CutResponse& response, double s0, double s1, std:
   }
 }
 
-void RawForces::append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece,
-                              bool first, std::vector<ForcePiece>& pieces) {
+void RawForces::append_turned(const Segment& segment, const AxesAlong& axes, double shift,
+                              std::size_t first_piece, bool first, std::vector<ForcePiece>& pieces) {
   const bool turns = stretch_.frame == ForceFrame::feed || stretch_.frame == ForceFrame::tool;
   for (const ForcePiece& part : stretch_.pieces) {
     bool begins = true;
     turn_pieces(part, segment, axes, turned_);
     for (ForcePiece& piece : turned_) {
+      piece.s0 += shift;
+      piece.s1 += shift;
       piece.F0 *= source_.scale;
       piece.F1 *= source_.scale;
       if (begins) piece.goes_on = part.goes_on;

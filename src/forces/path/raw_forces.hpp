@@ -12,6 +12,13 @@ namespace counterflex {
 
 class AxesAlong;
 
+/// The path length at which a segment ends for the force (m). A segment that only turns the tool counts a
+/// millimetre for each degree, as controls count its feed.
+double force_end(const Segment& segment);
+
+/// The segment with `force_end` for its end.
+Segment with_force_end(const Segment& segment);
+
 /// The axes in which a force is given, in the machine frame.
 struct ForceAxes {
   Matrix3 R_MF = Matrix3::Identity();
@@ -62,9 +69,10 @@ class RawForces {
   RawForces(const ForceSource& source, const Program& program, const Toolpath& path,
             const std::vector<Matrix3>& R_MT, std::optional<long>& block_number);
 
-  /// Appends the pieces of cutting segment i to those of its run, which begin at `first_piece`. Notes a
-  /// plunge that loses lateral forces. Lists a move without a force.
-  void append_to(std::size_t i, std::size_t first_piece, std::vector<ForcePiece>& pieces,
+  /// Appends the pieces of cutting segment i to those of its run, which begin at `first_piece`: to its
+  /// `force_end`, and `shift` further along the run. Notes a plunge that loses lateral forces. Lists a move
+  /// without a force.
+  void append_to(std::size_t i, double shift, std::size_t first_piece, std::vector<ForcePiece>& pieces,
                  ForceRemarks& remarks);
 
   /// The wrench at the bottom of the hole of a move that `drills`, whose tool has the orientation `R_MT`:
@@ -84,14 +92,18 @@ class RawForces {
     ForceFrame frame = ForceFrame::machine;
     std::string why{};
   };
+  /// `segment` is segment i with its `force_end`.
+  void append_along(const Segment& segment, std::size_t i, double shift, std::size_t first_piece,
+                    std::vector<ForcePiece>& pieces, ForceRemarks& remarks);
   GivenForce given_in_hole(const Move& move, const ForceStretch& by, double slope) const;
-  void give(const ForceStretch& stretch, std::size_t i, const AxesAlong& axes);
+  void give(const ForceStretch& stretch, std::size_t i, const Segment& segment, const AxesAlong& axes);
   void give_same(double s0, double s1, const Vector6& F, ForceFrame frame);
-  void give_cut(const CutResponse& response, double s0, double s1, std::size_t i, const AxesAlong& axes);
+  void give_cut(const CutResponse& response, double s0, double s1, const Segment& segment,
+                const AxesAlong& axes);
   bool is_zero(const StretchForce& given) const;
   std::span<const Matrix3> orientations(std::size_t i) const;  ///< of the tool on segment i
-  void append_turned(const Segment& segment, const AxesAlong& axes, std::size_t first_piece, bool first,
-                     std::vector<ForcePiece>& pieces);
+  void append_turned(const Segment& segment, const AxesAlong& axes, double shift, std::size_t first_piece,
+                     bool first, std::vector<ForcePiece>& pieces);
 
   const ForceSource& source_;
   const Program& program_;
