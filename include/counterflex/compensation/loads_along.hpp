@@ -162,18 +162,20 @@ std::optional<Vector3> common_shift(const Model& model, const Pose& X_MW, std::s
 
 // Commands between waypoints at which actuators may go farther than at the waypoints.
 
-/// The outermost places of an arc between fraction `u_before` of the move and the waypoint, and the bottom
-/// and the retract plane of a cycle that is called there. They are shifted as the waypoint is. Depths that
-/// are not known, and arcs along which the program turns the tool, give none.
-std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, double u_before);
+struct OutermostCommands {
+  std::vector<TipPosition> positions;
+  std::vector<std::size_t> waypoints;  ///< for each position the index of its waypoint, in order
+};
 
-/// The actuators of the nominal machine there (m, rad); empty if it has none.
-std::optional<Eigen::VectorXd> actuators_at(const TipPosition& command);
+/// The outermost places of an arc between a waypoint and the one before it, and the bottom and the retract
+/// plane of a cycle that is called there. They are shifted as the waypoint is. Depths that are not known,
+/// arcs along which the program turns the tool, waypoints that are not solved, and machines that control
+/// nothing give none.
+OutermostCommands outermost_commands(const Job& job, std::span<const Waypoint> waypoints);
 
-/// The fraction of the move at which the waypoint before `w` is; 0 if that is on another move.
-inline double fraction_before(const Waypoint* before, const Waypoint& w) {
-  return before != nullptr && before->move == w.move ? before->fraction : 0;
-}
+/// The actuators of the nominal machine at each position (m, rad); empty where it does not reach it.
+std::vector<std::optional<Eigen::VectorXd>> actuators_at(const Job& job,
+                                                         std::span<const TipPosition> positions);
 
 // Why a target is outside the travel of an actuator, in words.
 

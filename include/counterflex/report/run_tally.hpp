@@ -219,7 +219,7 @@ class RunTally {
 
  private:
   void add(const Waypoint& w, std::int32_t operation, const MoveFacts& facts, bool is_within);
-  void add_to_travel(const Waypoint& w, const Job& window, double u_before);
+  void add_to_travel(const std::vector<Waypoint>& waypoints, const Job& window);
   void add_as_programmed(const Waypoint& w, bool cuts);
   void list_corners(const std::vector<Waypoint>& waypoints, const Job& window);
   void add_reversals(const Job& window);

@@ -1,5 +1,6 @@
 #include "compensation/solve/commands.hpp"
 
+#include "compensation/solve/solver.hpp"
 #include "counterflex/compensation/loads_along.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/toolpath/reach.hpp"
@@ -116,29 +117,37 @@ TipPosition wanted_at(const Job& job, const Piece& piece, double u, const Model&
   return {&model, wanted_of(job, move), orientation_of(job, move)};
 }
 
-std::vector<TipPosition> outermost_commands(const Job& job, const Waypoint& w, double u_before) {
-  std::vector<TipPosition> commands;
-  const Move& move = job.program.moves[w.move];
-  const Model& model = model_of(job, w.move);
-  const auto add = [&](const Vector3& original) {
-    commands.push_back({&model, original + w.correction.head<3>(), commanded_orientation(w)});
-  };
-  if (w.segment != no_segment && move.arc && !w.R_MT) {
-    const Curve& wanted = job.path.segments[w.segment].wanted;
-    for (const double u : outermost_fractions(wanted))
-      if (u > u_before && u < w.fraction) add(original_command(job, move.frame, point_at(wanted, u)));
+OutermostCommands outermost_commands(const Job& job, std::span<const Waypoint> waypoints) {
+  OutermostCommands commands;
+  for (std::size_t i = 0; i < waypoints.size(); ++i) {
+    const Waypoint& w = waypoints[i];
+    const Model& model = model_of(job, w.move);
+    if (w.status != Status::converged || model.mechanism.controlled.empty()) continue;
+    const Move& move = job.program.moves[w.move];
+    const auto add = [&](const Vector3& original) {
+      commands.positions.push_back({&model, original + w.correction.head<3>(), commanded_orientation(w)});
+      commands.waypoints.push_back(i);
+    };
+    if (w.segment != no_segment && move.arc && !w.R_MT) {
+      const double u_before = i > 0 && waypoints[i - 1].move == w.move ? waypoints[i - 1].fraction : 0;
+      const Curve& wanted = job.path.segments[w.segment].wanted;
+      for (const double u : outermost_fractions(wanted))
+        if (u > u_before && u < w.fraction) add(original_command(job, move.frame, point_at(wanted, u)));
+    }
+    if (!w.cutting && w.fraction == 1)
+      for (const Vector3& p_mm : places_of_cycle(move)) add(position_of_words(job, move, p_mm));
   }
-  if (!w.cutting && w.fraction == 1)
-    for (const Vector3& p_mm : places_of_cycle(move)) add(position_of_words(job, move, p_mm));
   return commands;
 }
 
-std::optional<Eigen::VectorXd> actuators_at(const TipPosition& command) {
-  const Model& model = *command.model;
-  const Pose X_MT{command.R_MT.value_or(tip(model.mechanism, model.home).R), command.p_MT};
-  const NominalResult there = follow(model, model.home, X_MT);
-  if (there.status != Status::converged) return std::nullopt;
-  return actuator_values(model.mechanism, there.configuration);
+std::vector<std::optional<Eigen::VectorXd>> actuators_at(const Job& job,
+                                                         std::span<const TipPosition> positions) {
+  std::vector<std::optional<Eigen::VectorXd>> actuators(positions.size());
+  const std::vector<NominalResult> there = PlaceSolver(job).nominals(positions);
+  for (std::size_t i = 0; i < positions.size(); ++i)
+    if (there[i].status == Status::converged)
+      actuators[i] = actuator_values(positions[i].model->mechanism, there[i].configuration);
+  return actuators;
 }
 
 }  // namespace counterflex

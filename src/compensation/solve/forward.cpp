@@ -138,10 +138,9 @@ Failure failure_at(const Job& job, const Waypoint& w, Status status, const TipPo
   return failure;
 }
 
-// Why the nominal machine does not come to a command beside the waypoint `w`.
-std::optional<Failure> failure_beside(const Job& job, PlaceSolver& solver, const Waypoint& w,
-                                      const TipPosition& command) {
-  const NominalResult there = solver.nominal(command);
+// Why the nominal machine, which comes to `there`, does not come to a command beside the waypoint `w`.
+std::optional<Failure> failure_beside(const Job& job, const Waypoint& w, const TipPosition& command,
+                                      const NominalResult& there) {
   if (there.status != Status::converged) return failure_at(job, w, there.status, command, {});
   const Eigen::VectorXd rho = actuator_values(command.model->mechanism, there.configuration);
   if (within_travel(command.model->mechanism, rho)) return std::nullopt;
@@ -150,17 +149,15 @@ std::optional<Failure> failure_beside(const Job& job, PlaceSolver& solver, const
 
 // Cuts the run off at the first waypoint beside which a command is not reached.
 void judge_outermost(const Job& job, PlaceSolver& solver, ForwardRun& run) {
-  const Waypoint* before = nullptr;
-  for (std::size_t i = 0; i < run.waypoints.size(); ++i) {
-    const Waypoint& w = run.waypoints[i];
-    if (w.status != Status::converged) return;
-    for (const TipPosition& command : outermost_commands(job, w, fraction_before(before, w)))
-      if (auto failure = failure_beside(job, solver, w, command)) {
-        run.waypoints.resize(i + 1);
-        run.failure = std::move(failure);
-        return;
-      }
-    before = &w;
+  const OutermostCommands commands = outermost_commands(job, run.waypoints);
+  const std::vector<NominalResult> there = solver.nominals(commands.positions);
+  for (std::size_t k = 0; k < there.size(); ++k) {
+    const std::size_t i = commands.waypoints[k];
+    if (auto failure = failure_beside(job, run.waypoints[i], commands.positions[k], there[k])) {
+      run.waypoints.resize(i + 1);
+      run.failure = std::move(failure);
+      return;
+    }
   }
 }
 

@@ -61,7 +61,6 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
   std::size_t segment = no_segment;
   std::int32_t operation = PathTally::no_operation;
   MoveFacts facts;
-  const Waypoint* before = nullptr;
   for (const Waypoint& w : waypoints) {
     if (w.segment != segment || segment == no_segment) {
       segment = w.segment;
@@ -79,9 +78,8 @@ void RunTally::add_waypoints(const std::vector<Waypoint>& waypoints, const Job& 
     feed_.add(w, miss, window);
     if (window.options.only_significant) add_as_programmed(w, tool_cuts_at(window.program, w));
     add(w, operation, facts, is_within_tolerance(window.options, miss));
-    if (w.status == Status::converged) add_to_travel(w, window, fraction_before(before, w));
-    before = &w;
   }
+  add_to_travel(waypoints, window);
   list_corners(waypoints, window);
 }
 
@@ -116,16 +114,19 @@ void RunTally::add_as_programmed(const Waypoint& w, bool cuts) {
   as_programmed_->add(w, cuts);
 }
 
-void RunTally::add_to_travel(const Waypoint& w, const Job& window, double u_before) {
-  const Model& model = model_of(window, w.move);
-  const bool is_commanded = !model.mechanism.controlled.empty();
-  for (const TipPosition& command :
-       is_commanded ? outermost_commands(window, w, u_before) : std::vector<TipPosition>())
-    if (const auto rho = actuators_at(command))
-      travel_.add(model.mechanism, *rho, w.line);
-    else
-      travel_.skip(w.line);
-  travel_.add(model.mechanism, w.rho, w.line);
+void RunTally::add_to_travel(const std::vector<Waypoint>& waypoints, const Job& window) {
+  const OutermostCommands commands = outermost_commands(window, waypoints);
+  const auto actuators = actuators_at(window, commands.positions);
+  for (std::size_t i = 0, k = 0; i < waypoints.size(); ++i) {
+    const Waypoint& w = waypoints[i];
+    const Mechanism& mechanism = model_of(window, w.move).mechanism;
+    for (; k < actuators.size() && commands.waypoints[k] == i; ++k)
+      if (actuators[k])
+        travel_.add(mechanism, *actuators[k], w.line);
+      else
+        travel_.skip(w.line);
+    if (w.status == Status::converged) travel_.add(mechanism, w.rho, w.line);
+  }
 }
 
 namespace {
