@@ -131,8 +131,8 @@ struct DraftPiece {
   bool settled = true;
 };
 
-/// Appends the pieces of matched moves that have a segment. A point inside a segment that is within the
-/// tolerance of a knot of the plan has the knot's fraction. Any other gets the fraction to which it projects:
+/// Appends the pieces of matched moves that have a segment. A point inside a segment that rounds to a
+/// knot of the plan has the knot's fraction. Any other gets the fraction to which it projects:
 /// on a line along it, on an arc by its angle about the centre, over all turns, in a segment that
 /// `is_found_by_turn` by its turn; no error of a fraction reaches the next one.
 void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,

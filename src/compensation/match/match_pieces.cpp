@@ -49,6 +49,21 @@ double extent_of(const Segment& segment) {
 
 constexpr double not_known = -1;  // a fraction
 
+// By how much the words of inserted points round them (m). A text that was written with other options may
+// have fewer digits than the job. Round numbers have few digits, too: no program is written with digits that
+// round by the tolerance.
+double rounding_of_points(const Job& job, const MatchedMoves& matched) {
+  const double written = rounding_allowance(matched.original, job.options.write);
+  WriteOptions as_read;
+  for (const CorrectedMove& found : matched.found.first(matched.found.size() - 1))
+    for (std::size_t axis = 0; axis < 3; ++axis)
+      if (const auto& word = found.move->words[axis])
+        as_read.decimals = std::max<int>(as_read.decimals, word->decimals);
+  if (as_read.decimals < 0) return written;
+  const double read = rounding_allowance(matched.original, as_read);
+  return read < job.options.tolerance ? std::max(read, written) : written;
+}
+
 // The pieces of matched moves. The fraction at the end of the last one alone is known.
 std::vector<DraftPiece> drafts_of(const Job& job, const MatchedMoves& matched) {
   const Segment& segment = job.path.segments[*matched.segment];
@@ -146,17 +161,24 @@ bool find_jump(const Segment& segment, const Knot& knot, double rounding, std::v
 
 // Points that were inserted where the plan has a knot, to the rounding of its words, belong to its fraction.
 // Where the force steps, one move ends on this side of the step and the next one on the other. Other points
-// are projected: their fraction must not depend on the tolerance.
-void find_knots(const Segment& segment, std::span<const Knot> knots, double rounding,
+// are projected: their fraction must not depend on the tolerance. Where the correction jumps, `read_rounding`
+// is that of the words as read: a text of fewer digits has the same jumps, and other knots between them.
+void find_knots(const Segment& segment, std::span<const Knot> knots, double rounding, double read_rounding,
                 std::vector<DraftPiece>& drafts) {
-  if (is_found_by_turn(segment)) rounding = std::hypot(rounding, way_of_turn * turn_rounding);
+  const auto with_turn = [&](double way) {
+    return is_found_by_turn(segment) ? std::hypot(way, way_of_turn * turn_rounding) : way;
+  };
   std::size_t next = 0;  // piece
   const Knot* last = nullptr;
-  for (const Knot& knot : knots) {
+  for (std::size_t k = 0; k < knots.size(); ++k) {
     if (next + 1 >= drafts.size()) return;
+    const Knot& knot = knots[k];
+    const bool jumps_there = knot.u == 0 || (k + 1 < knots.size() && knots[k + 1].u == knot.u) ||
+                             (k > 0 && knots[k - 1].u == knot.u);
+    const double near = with_turn(jumps_there ? read_rounding : rounding);
     const bool behind = last != nullptr && last->u == knot.u;
-    const bool found = behind ? find_jump(segment, knot, rounding, drafts, next)
-                              : find_knot(segment, knot, rounding, drafts, next);
+    const bool found =
+        behind ? find_jump(segment, knot, near, drafts, next) : find_knot(segment, knot, near, drafts, next);
     last = found ? &knot : nullptr;
   }
 }
@@ -320,7 +342,8 @@ void add_pieces(const Job& job, const Plan& plan, const MatchedMoves& matched,
     const std::size_t s = *matched.segment;
     const Segment& segment = job.path.segments[s];
     find_knots(segment, inner_knots(job, plan, s, matched.first()),
-               rounding_allowance(matched.original, job.options.write), drafts);
+               rounding_allowance(matched.original, job.options.write), rounding_of_points(job, matched),
+               drafts);
     const bool turns = std::ranges::all_of(drafts, [](const DraftPiece& d) { return bool(d.piece.turn); });
     if (turns && is_found_by_turn(segment))
       project_turn(*segment.turn, drafts);

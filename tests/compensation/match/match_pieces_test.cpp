@@ -87,6 +87,21 @@ TEST_CASE(
         }
 }
 
+TEST_CASE("steps of the force are found in a program of fewer digits than the job has") {
+  for (const char* cut : {"X20 F600\nY20\nX0\n", "G3 X20 Y20 I0 J20 F600\nG1 X0\n"}) {
+    CAPTURE(cut);
+    Order order{.machine = load_machine(small_mill), .text = std::string(rapid_and_plunge) + cut + "M30\n"};
+    order.force = profile("machine", 6.02, 0);
+    order.tolerance = 20e-6;
+    order.decimals = 2;
+    Shop shop(order);
+    const std::string text = compensated(shop).text;
+    REQUIRE(refusal_of(shop, text) == "");
+    shop.options.write.decimals = -1;
+    CHECK(refusal_of(shop, text) == "");
+  }
+}
+
 TEST_CASE("verify accepts ramps so short that the tip runs ahead of its path in them") {
   const std::string groove = "G21 G90\nG0 X-73.65 Y-73.65 Z-63.65\nG1 Z-73.65 F300\nY126.35\nZ-63.65\nM30\n";
   for (const double blend : {0.01e-3, 0.1e-3, 0.5e-3}) {

@@ -90,6 +90,20 @@ TEST_CASE("blocks that only turn the tool are right under steps and ramps of the
       }
 }
 
+TEST_CASE("a program of few digits is verified with the digits of its words") {
+  for (const char* text : {short_ways, in_place}) {
+    CAPTURE(text);
+    Order order = turning_order(text, 20e-6);
+    order.decimals = 2;
+    order.force = by_line("step", 0);
+    Shop shop(order);
+    const Program written = read_program(compensated(shop).text, "out.ngc", order.read);
+    REQUIRE(refusal(shop, written) == "");
+    shop.options.write.decimals = -1;
+    CHECK(refusal(shop, written) == "");
+  }
+}
+
 namespace {
 
 /// `written` with the end of move `m` elsewhere (mm, deg about Y); it and the next one keep their time.
