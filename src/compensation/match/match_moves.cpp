@@ -202,8 +202,19 @@ std::size_t MoveFinder::count_behind(const MatchedMoves& matched, std::size_t fi
                  off_mm = (knot.target - planned.knots.back().target).norm() / mm;
     return length_mm > 0 && std::max(before_mm, off_mm) <= 2 * near_mm;
   };
+  const auto planned_before = std::find_if_not(knots.rbegin(), knots.rend(), is_planned_there);
+  // The moves before `first` that end at one of these have it.
+  const Vector3 planned_end_mm = in_words_mm(job_, original, planned.knots.back().target);
+  const auto has_knot = [&](const CorrectedMove& found) {
+    return std::any_of(knots.rbegin(), planned_before, [&](const Knot& knot) {
+      const Vector3 there_mm = end_mm + in_words_mm(job_, original, knot.target) - planned_end_mm;
+      return (found.move->end_mm - there_mm).norm() <= near_mm;
+    });
+  };
+  std::ptrdiff_t most = planned_before - knots.rbegin();
+  for (std::size_t i = 0; i + 1 < first; ++i) most -= has_knot(*found_.at(i));
   std::size_t j = first;
-  for (auto knot = knots.rbegin(); knot != knots.rend() && is_planned_there(*knot); ++knot, ++j) {
+  for (; most > 0; --most, ++j) {
     const CorrectedMove* found = found_.at(j);
     if (found == nullptr || found->others != others) break;
     if (next_number_ && found->move->block_number == next_number_) break;

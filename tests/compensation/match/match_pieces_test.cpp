@@ -102,6 +102,21 @@ TEST_CASE("steps of the force are found in a program of fewer digits than the jo
   }
 }
 
+TEST_CASE("a block that goes nowhere is found behind a short block and the jump in front of it") {
+  Order order{
+      .machine = load_machine(small_mill),
+      .text =
+          "G21 G90 G17\nG0 X120. Y20. Z5.\nG1 Z0. F600\nX121.906\nG0 Z5.\nG1 Z0.\nG0 X122.906\nG1 X122.908\n"
+          "G1 X122.908\nY21.999\nY22.999\nX122.907\nG0 Z20.\nM30\n"};
+  order.force = constant_force((Vector6() << -146, -114, 2, 0, 0, 0).finished());
+  order.force.blend = 0;
+  order.tolerance = 5e-6;
+  const Shop shop(order);
+  const Compensation written = compensated(shop);
+  REQUIRE(!written.failure);
+  CHECK(refusal_of(shop, written.text) == "");
+}
+
 TEST_CASE("verify accepts ramps so short that the tip runs ahead of its path in them") {
   const std::string groove = "G21 G90\nG0 X-73.65 Y-73.65 Z-63.65\nG1 Z-73.65 F300\nY126.35\nZ-63.65\nM30\n";
   for (const double blend : {0.01e-3, 0.1e-3, 0.5e-3}) {
