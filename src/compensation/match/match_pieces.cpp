@@ -49,6 +49,14 @@ double extent_of(const Segment& segment) {
 
 constexpr double not_known = -1;  // a fraction
 
+// Of the words of a move as read; -1 if it has none.
+int most_decimals(const Move& move) {
+  int most = -1;
+  for (std::size_t axis = 0; axis < 3; ++axis)
+    if (const auto& word = move.words[axis]) most = std::max<int>(most, word->decimals);
+  return most;
+}
+
 // By how much the words of inserted points round them (m). A text that was written with other options may
 // have fewer digits than the job. Round numbers have few digits, too: no program is written with digits that
 // round by the tolerance.
@@ -56,9 +64,7 @@ double rounding_of_points(const Job& job, const MatchedMoves& matched) {
   const double written = rounding_allowance(matched.original, job.options.write);
   WriteOptions as_read;
   for (const CorrectedMove& found : matched.found.first(matched.found.size() - 1))
-    for (std::size_t axis = 0; axis < 3; ++axis)
-      if (const auto& word = found.move->words[axis])
-        as_read.decimals = std::max<int>(as_read.decimals, word->decimals);
+    as_read.decimals = std::max(as_read.decimals, most_decimals(*found.move));
   if (as_read.decimals < 0) return written;
   const double read = rounding_allowance(matched.original, as_read);
   return read < job.options.tolerance ? std::max(read, written) : written;
@@ -95,17 +101,25 @@ std::vector<DraftPiece> drafts_of(const Job& job, const MatchedMoves& matched) {
 
 constexpr double least_jump = 1e-9;  // m: of the correction
 
-// Whether a jump precedes a segment, which does not begin where the one before it ends. Where that one is not
-// planned, or is in the window before, `first` shows it: it begins in the digits of the text.
+// Whether a jump precedes a segment, which does not begin where the one before it ends, by more than the
+// digits of `first` show. Where the one before is not planned, or is in the window before, `first` alone
+// shows it.
 bool may_jump(const Job& job, const Plan& plan, std::size_t s, const Move& first) {
   const PlannedSegment& planned = plan.segments[s];
   if (planned.starts_anywhere || planned.knots.empty()) return false;
-  if (s > 0 && !plan.segments[s - 1].knots.empty())
-    return (plan.segments[s - 1].knots.back().target - planned.start.target).norm() > least_jump;
+  const bool planned_before = s > 0 && !plan.segments[s - 1].knots.empty();
+  if (planned_before &&
+      (plan.segments[s - 1].knots.back().target - planned.start.target).norm() <= least_jump)
+    return false;
   if (!all_known(first.known_start)) return true;
   const Move& original = job.program.moves[job.path.segments[s].move];
   const Vector3 off_mm = first.start_mm - in_words_mm(job, original, planned.start.target);
-  const double half_digit = rounding_as_read(first) / std::sqrt(3.0);
+  WriteOptions as_read;
+  as_read.decimals = most_decimals(first);
+  const double half_digit =
+      std::min({rounding_as_read(first), rounding_allowance(original, job.options.write),
+                rounding_allowance(original, as_read)}) /
+      std::sqrt(3.0);
   return off_mm.cwiseAbs().maxCoeff() * mm > half_digit + least_jump;
 }
 

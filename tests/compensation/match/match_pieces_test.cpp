@@ -117,6 +117,20 @@ TEST_CASE("a block that goes nowhere is found behind a short block and the jump 
   CHECK(refusal_of(shop, written.text) == "");
 }
 
+TEST_CASE("a jump that the digits of the text do not show takes no move") {
+  Order order{.machine = load_machine(small_mill),
+              .text =
+                  "G21 G90 G17\nG0 X20. Y20. Z5.\nG1 Z0. F600\nX20.003\nG0 X21.003\nG1 X21.004\nX21.003\n"
+                  "X24.003\nX23.503\nG0 Z5.\nM30\n"};
+  order.force = constant_force((Vector6() << 8, 9, -5, 0, 0, 0).finished());
+  order.force.blend = 0;
+  order.tolerance = 5e-6;
+  const Shop shop(order);
+  const Compensation written = compensated(shop);
+  REQUIRE(!written.failure);
+  CHECK(refusal_of(shop, written.text) == "");
+}
+
 TEST_CASE("verify accepts ramps so short that the tip runs ahead of its path in them") {
   const std::string groove = "G21 G90\nG0 X-73.65 Y-73.65 Z-63.65\nG1 Z-73.65 F300\nY126.35\nZ-63.65\nM30\n";
   for (const double blend : {0.01e-3, 0.1e-3, 0.5e-3}) {
