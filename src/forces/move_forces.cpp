@@ -61,7 +61,7 @@ Vector6 in_feed_frame(const Vector6& F, const ForceAxes& axes, bool& lost) {
   if (!axes.only_z) return all;
   Vector6 representable = all;
   for (const int i : {0, 1, 3, 4}) representable[i] = 0;
-  lost = lost || (all - representable).norm() > 1e-9 * all.norm();
+  lost = lost || (all - representable).norm() > same_wrench * all.norm();
   return representable;
 }
 

@@ -341,11 +341,11 @@ struct MoveForce {
   double s_start = 0;  ///< cutting path length at its start (m); NaN: its position is not known
   double length = 0;   ///< m; NaN: not known
   double feed_m_s = 0;
-  double spindle_rpm = 0;        ///< the model's own where one acts, else the program's
-  double feed_per_tooth = 0;     ///< m; 0: no cutting model acts
-  Vector6 F = Vector6::Zero();   ///< on the tool, scaled, axes of the feed frame (N, N m)
-  bool only_z = false;           ///< the feed is parallel to the tool: only the part of F along it is known
-  bool comment = false;          ///< the program's FORCE comment covers it
+  double spindle_rpm = 0;       ///< the model's own where one acts, else the program's
+  double feed_per_tooth = 0;    ///< m; 0: no cutting model acts
+  Vector6 F = Vector6::Zero();  ///< on the tool, scaled, axes of the feed frame (N, N m)
+  bool only_z = false;   ///< no feed across the tool, but F acts across it: only its part along it is known
+  bool comment = false;  ///< the program's FORCE comment covers it
   bool comment_altered = false;  ///< and the scale, or a bound of the air, makes another force of its own
   bool changes = false;          ///< the wrench is not the same all along the move: `F` is that in the middle
   double largest_N = 0;          ///< of the force anywhere on the move

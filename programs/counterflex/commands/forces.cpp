@@ -101,15 +101,15 @@ class MoveListing {
     if (!placed && was_placed_) console.warning(program_, move.line, "no force computed: " + move.why);
     was_placed_ = placed;
     if (!placed) return;
-    has_places_ = true;
-    if (profile_) profile_->write(profile_rows(program_, move));
+    has_lengths_ = has_lengths_ || move.length > 0;
+    if (profile_) profile_->write(profile_rows(program_, move, profile_end_));
   }
 
   /// Throws `InputError` (ErrorKind::program_text) if a profile would have no row.
   void finish(Console& console) {
-    if (profile_ && !has_places_)
+    if (profile_ && !has_lengths_)
       throw InputError(ErrorKind::program_text, {program_},
-                       "has no feed move with a known position: no force profile can be written");
+                       "has no feed move with a known length above zero: no force profile can be written");
     write(json_ ? json_foot(totals_) : table_foot(totals_));
     publish_together({if_any(profile_), if_any(page_)});
     if (to_stdout_) console.note(table_foot(totals_));
@@ -121,8 +121,9 @@ class MoveListing {
   }
 
   std::string program_;
-  bool json_, to_stdout_ = false, is_first_ = true, was_placed_ = true, has_places_ = false;
+  bool json_, to_stdout_ = false, is_first_ = true, was_placed_ = true, has_lengths_ = false;
   ForceTotals totals_;
+  ProfileEnd profile_end_;
   std::optional<FileWriter> profile_, page_;
 };
 

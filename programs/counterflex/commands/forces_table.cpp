@@ -41,6 +41,8 @@ nlohmann::ordered_json number_or_null(double value, int decimals) {
   return rounded(value, decimals);
 }
 
+constexpr std::string_view instead = "give the other commands the same forces as this one, or use --json";
+
 /// Throws if a profile of steps in the feed frame cannot represent the force of a move.
 void refuse_move(const std::string& program, const MoveForce& move) {
   const auto refuse = [&](ErrorKind kind, const std::string& why) {
@@ -51,7 +53,6 @@ void refuse_move(const std::string& program, const MoveForce& move) {
            "a FORCE comment gives the force of this move; --load-scale and --air-above cannot change it in a "
            "profile: give them to the command that reads the profile");
   if (move.comment) return;
-  constexpr std::string_view instead = "give the other commands the same forces as this one, or use --json";
   if (move.only_z)
     refuse(ErrorKind::machine_or_force,
            fmt::format("the {} {:.6g} N is not{}: a profile in the feed frame cannot represent it; {}",
@@ -63,6 +64,13 @@ void refuse_move(const std::string& program, const MoveForce& move) {
            fmt::format("the force, {:.6g} N at most, changes along this move: a "
                        "profile of steps in the feed frame cannot represent it; {}",
                        move.largest_N, instead));
+}
+
+/// As cells of a row, each after a comma.
+std::string cells_of(std::initializer_list<double> numbers) {
+  std::string text;
+  for (const double number : numbers) text += ", " + format_fixed(number, force_decimals);
+  return text;
 }
 
 }  // namespace
@@ -118,8 +126,8 @@ std::string table_foot(const ForceTotals& totals) {
     text += fmt::format("  largest force  {:.1f} N, line {}\n", totals.largest_N, totals.largest_line);
   if (totals.only_z > 0)
     text += fmt::format(
-        "  {} of them along the tool: the lateral direction is undefined, and only the component along the "
-        "tool is shown\n",
+        "  {} of them along the tool, or only turning it: the lateral direction is undefined, and only the "
+        "component along the tool is shown\n",
         totals.only_z);
   if (totals.changing > 0)
     text += fmt::format(
@@ -179,16 +187,27 @@ std::string profile_head(const std::string& program, bool at_platform) {
       profile_mark, program, at_platform ? "platform" : "tip");
 }
 
-std::string profile_rows(const std::string& program, const MoveForce& move) {
+std::string profile_rows(const std::string& program, const MoveForce& move, ProfileEnd& end) {
   refuse_move(program, move);
-  const auto key = [](double s) { return format_fixed(s / mm, length_decimals); };
-  if (move.comment) return key(move.s_start) + ", , , , , ,\n";
+  const bool turns = move.length == 0;
   std::string text;
-  for (const ForceStep& step : move.steps) {
-    text += key(step.s);
-    for (int i = 0; i < 6; ++i) text += ", " + format_fixed(step.F[i], force_decimals);
-    text += "\n";
+  const auto add = [&](double s, const std::string& axial, const std::string& row) {
+    const int turn_line = turns ? move.line : end.turn_line;
+    if (turn_line > 0 && end.axial && axial != *end.axial)
+      throw InputError(ErrorKind::machine_or_force, {program, turn_line, 1},
+                       fmt::format("the block only turns the tool, and its force differs from that of the "
+                                   "block beside it: a profile by path length cannot represent it; {}",
+                                   instead));
+    end.axial = axial;
+    end.turn_line = turns ? move.line : 0;
+    if (!turns) text += format_fixed(s / mm, length_decimals) + row + "\n";
+  };
+  if (move.comment) {
+    add(move.s_start, "", ", , , , , ,");
+    return text;
   }
+  for (const auto& [s, F] : move.steps)
+    add(s, cells_of({F[2], F[5]}), cells_of({F[0], F[1], F[2], F[3], F[4], F[5]}));
   return text;
 }
 

@@ -1,6 +1,7 @@
 #pragma once
 /// The wrench of every feed move, as a text table, a JSON document and a force profile.
 #include <map>
+#include <optional>
 #include <string>
 #include <string_view>
 
@@ -36,14 +37,21 @@ std::string json_head(const std::string& program, bool at_platform);
 std::string json_row(const MoveForce& move, bool first);
 std::string json_foot(const ForceTotals& totals);
 
+/// Where a profile has come: what the next rows need of those before.
+struct ProfileEnd {
+  std::optional<std::string> axial;  ///< fz and mz; empty text: nothing acts. None: there is no move yet
+  int turn_line = 0;                 ///< of a block that only turns the tool after the last row; 0: none
+};
+
 /// First text of profiles written by counterflex.
 inline constexpr std::string_view profile_mark = "# Forces of ";
 
 /// A profile by path length in the feed frame. Rows are at starts of moves and at steps of the force. Moves
-/// without a force have zeros, moves under a FORCE comment have no row. `profile_rows` throws `InputError`:
+/// without a force have zeros, moves under a FORCE comment have nothing. A block that only turns the tool has
+/// no row: it takes the axial part of the row before or after it. `profile_rows` throws `InputError`:
 /// ErrorKind::machine_or_force if steps in the feed frame cannot represent the force, ErrorKind::usage if
 /// --load-scale or --air-above would change the force of a comment.
 std::string profile_head(const std::string& program, bool at_platform);
-std::string profile_rows(const std::string& program, const MoveForce& move);
+std::string profile_rows(const std::string& program, const MoveForce& move, ProfileEnd& end);
 
 }  // namespace counterflex::cli

@@ -22,7 +22,7 @@ Segment with_force_end(const Segment& segment);
 /// The axes in which a force is given, in the machine frame.
 struct ForceAxes {
   Matrix3 R_MF = Matrix3::Identity();
-  bool only_z = false;  ///< feed parallel to the tool: no lateral direction
+  bool only_z = false;  ///< the feed is parallel to the tool, or it only turns: no lateral direction
 };
 
 /// Axes x, y, z of the feed frame: z the tool's, y = unit(z x feed), x = y x z.
