@@ -75,7 +75,8 @@ std::optional<FrameShift> shift_of(const OffsetQuestion& q, const WorkFrame& fra
   return moved;
 }
 
-/// The largest share of the tolerance. Places that need not keep it may get worse by a small share.
+/// The largest share of the tolerance. Places that need not keep it may exceed it, or their own share, by a
+/// small share.
 double most_share(const OffsetQuestion& q, const Waypoint& at) {
   if (!at.exempt && !at.insignificant) return 1;
   return std::max(1.0, share_of_tolerance(q.options, q.model.mechanism, at.R_MT, at.after)) + small_share;

@@ -30,9 +30,10 @@ struct OffsetQuestion {
 /// commands of the corrected program and the wanted path are shifted together, along the axes of the work
 /// frame and along those of M, and the machine is solved forward. A corner holds if the deviation is within
 /// the tolerances at each place, and the actuators within their travel. At a place that need not keep the
-/// tolerances (`Waypoint::exempt`) the deviation may become larger by a tenth of them. A
-/// datum that was touched off is touched off again at its new place. Corners of the tool length are those of
-/// the window with the length changed by the same half-width. Empty: not even the smallest one holds.
+/// tolerances (`Waypoint::exempt`, `Waypoint::insignificant`) the deviation may exceed them, or its value
+/// with the exact offset if that is larger, by a tenth of them. A datum that was touched off is touched off
+/// again at its new place. Corners of the tool length are those of the window with the length changed by the
+/// same half-width. Empty: not even the smallest one holds.
 std::optional<double> offset_window(const OffsetQuestion& question);
 
 /// Whether all corners of one half-width hold (m).

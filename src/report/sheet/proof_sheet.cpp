@@ -219,27 +219,18 @@ class Sheet {
     if (inch_) text += fmt::format(" ({:.5f} in)", *proof_.window_mm / mm_per(LengthUnit::inches));
     if (proof_.window_turns) text += fmt::format(", and each of its angles by {} deg", guarded_angle_deg);
     if (proof_.window_lengths) text += ", and the length of the tool by as much";
-    text += ": within this window the program keeps its tolerance" + where_kept() + ", by the model." +
-            elsewhere();
+    // As `offset_window` judges its places.
+    text +=
+        ": within this window the program keeps its tolerance, by the model. At places that need not keep it "
+        "(as on lines that are not split, on contours under G41, and at corners that the control rounds) the "
+        "deviation may exceed the tolerance, or its value with the exact offset if that is larger, by a "
+        "tenth of the tolerance.";
+    if (report_.feed_moves.unknown > 0) text += " Moves with an unknown deviation are not judged.";
     if (report_.facts.guard)
       text += fmt::format(" The program itself checks {} before its first cut.",
                           report_.facts.guard->guard.active.name.empty()
                               ? "its base"
                               : report_.facts.guard->guard.active.name);
-    return text;
-  }
-
-  bool keeps_everywhere() const { return report_.verdict == Verdict::ok && !report_.as_programmed; }
-
-  std::string where_kept() const {
-    return keeps_everywhere() ? "" : " in the moves that are corrected individually";
-  }
-
-  /// As the search of the window judges places that need not keep the tolerance.
-  std::string elsewhere() const {
-    if (keeps_everywhere()) return "";
-    std::string text = " In the others the deviation may grow by a tenth of the tolerance.";
-    if (report_.feed_moves.unknown > 0) text += " Moves with an unknown deviation are not judged.";
     return text;
   }
 
