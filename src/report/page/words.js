@@ -88,13 +88,14 @@
     (grouped || 0) + (held || 0) + (inPart || 0) + (left || 0);
 
   /**
-   * The verdict as the terminal shows it; '' for a report of an older version. The reason is left out if the sentence
-   * behind it has the same numbers in the unit of the page.
+   * The verdict as the terminal shows it; '' for a report of an older version. What the sentence behind it has in the unit
+   * of the page is left out: the largest deviation above the tolerance, and the reason if it has the share alone.
    */
   function verdictLine(report) {
     const {verdict, verdict_reason: reason} = report;
     if (!verdict) return '';
-    return verdict === 'PARTLY' && reason && !hasShareAlone(report) ? `PARTLY (${reason})` : verdict;
+    if (verdict !== 'PARTLY' || !reason || hasShareAlone(report)) return verdict;
+    return `PARTLY (${isMissed(report) ? reason.replace(/, worst [\d.]+ mm > [\d.]+/, '') : reason})`;
   }
 
   /** The result of a run: its verdict and a sentence, and the kind: 'good', 'warn', 'bad' or 'neutral'. */

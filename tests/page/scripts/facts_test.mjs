@@ -2,8 +2,8 @@ import assert from 'node:assert/strict';
 import test from 'node:test';
 import {load_scripts, plain} from './load_scripts.mjs';
 
-const {units, summary, facts, curves} =
-  load_scripts('units.js', 'dom.js', 'words.js', 'summary.js', 'facts.js', 'series.js', 'curves.js');
+const {units, summary, remarks, facts, curves} =
+  load_scripts('units.js', 'dom.js', 'words.js', 'summary.js', 'remarks.js', 'facts.js', 'series.js', 'curves.js');
 const report = {machine: 'mill', command: 'compensate', options: {'tolerance-mm': 0.005},
   control: {path_tolerances: [{line: 3, path_mm: 0.0508}, {line: 9, path_mm: null}]}};
 
@@ -48,4 +48,23 @@ test('without a cutting force the page does not warn of a dry run', () => {
     summary: {air: {max_mm: 0.0252, line: 13}}, forces: {largest_N, largest_Nm, without_force: {moves: 0}}}, units.create('um')));
   assert.deepEqual(reminders(0, 0), []);
   for (const [force, moment] of [[60, 0], [0, 2]]) assert.match(reminders(force, moment)[0].text, /do not run it dry/);
+});
+
+test('a moment without a force is a cutting force, in the assumptions and the points to check', () => {
+  const sentence = (largest_N, largest_Nm, moves, failure = null) =>
+    summary.forceSentence({failure, forces: {largest_N, largest_Nm, without_force: {moves}}});
+  assert.equal(sentence(60.4, 2, 3), 'Cutting force: up to 60 N. 3 feed moves without a force.');
+  assert.equal(sentence(0, 23.346, 1), 'Cutting force: up to 23.35 N m. 1 feed move without a force.');
+  assert.equal(sentence(0, 0, 3), 'No cutting force acts.');
+  assert.equal(sentence(0, 0, 3, {line: 3}), '');
+  const found = summary.reminders({options: {}, blocks: {}, failure: null, summary: {},
+    forces: {largest_N: 0, largest_Nm: 2, without_force: {moves: 1}}}, units.create('um'));
+  assert.deepEqual(plain(found).map(({text}) => text), ['1 feed move without a cutting force']);
+});
+
+test('the length of moves without a force is that of the moves with a known length', () => {
+  const text = (sum) => remarks.unforced(sum, units.create('um'));
+  assert.match(text({moves: 5, unknown_length: 2, length_mm: 25}), /^5 feed moves, 25[.0]* mm, 2 of unknown length$/);
+  assert.match(text({moves: 5, unknown_length: 0, length_mm: 25}), /^5 feed moves, 25[.0]* mm$/);
+  assert.equal(text({moves: 2, unknown_length: 2, length_mm: null}), '2 feed moves, length unknown');
 });

@@ -41,13 +41,21 @@
         rows.map(({line, why}) => [link(line), why]), count);
   }
 
+  /** Feed moves without a force: their count and the length of those with a known one. */
+  function unforced({moves, unknown_length: unknown, length_mm: length}, units) {
+    const text = known(length) ? units.length(length) : 'length unknown';
+    const more = known(length) && unknown > 0 ? `, ${unknown} of unknown length` : '';
+    return `${words.counted(moves, 'feed move')}, ${text}${more}`;
+  }
+
   function withoutForce(run, link, units) {
-    const {reasons, moves, length_mm: length} = run.report.forces.without_force;
+    const {without_force: without} = run.report.forces;
+    const {reasons, moves} = without;
     if (moves === 0) return null;
     const rows = reasons.map((r) => [r.why, String(r.moves), units.lengthNumber(r.length_mm), link(r.first_line)]);
     const columns = [textColumn('Why'), numberColumn('Moves'), numberColumn(`Length, ${units.lengthLabel}`),
       numberColumn('First line')];
-    const caption = `Without a cutting force: ${words.counted(moves, 'feed move')}, ${known(length) ? units.length(length) : 'length unknown'}`;
+    const caption = `Without a cutting force: ${unforced(without, units)}`;
     return table(words.ofRun(run, caption), columns, rows);
   }
 
@@ -62,5 +70,5 @@
     }));
   }
 
-  counterflex.remarks = {render};
+  counterflex.remarks = {render, unforced};
 })();

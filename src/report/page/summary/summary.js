@@ -110,7 +110,7 @@
       if (state === 'doubtful') add(`${check}: ${words.unitsOf(text)}`, 'remarks');
     if (report.warning_count > 0) add(words.counted(report.warning_count, 'warning'), 'remarks');
     if (loads > 0) add(`${words.counted(loads, 'load')} above the limit of the machine file`, 'loads');
-    if (report.forces.without_force.moves > 0 && report.forces.largest_N > 0)
+    if (report.forces.without_force.moves > 0 && forceActs(report))
       add(`${words.counted(report.forces.without_force.moves, 'feed move')} without a cutting force`, 'remarks');
     if (air && forceActs(report) && !report.failure && air.max_mm > tolerance(report))
       add(`without the cutting force the program is off by up to ${units.format(air.max_mm)}: do not run it dry on the finished part`,
@@ -158,11 +158,11 @@
     return el('p', {class: 'subtitle'}, 'Written to ', el('code', null, (source && source.output) || report.output));
   }
 
-  function forceSentence({forces, failure}) {
-    const {without_force: without, largest_N: largest} = forces;
-    if (failure && !(largest > 0)) return '';
-    const size = largest > 0 ? `Cutting force: up to ${fixed(largest, 0)} N.` : 'No cutting force acts.';
-    return largest > 0 && without.moves > 0 ? `${size} ${words.counted(without.moves, 'feed move')} without a force.` : size;
+  function forceSentence(report) {
+    const {without_force: without, largest_N: force, largest_Nm: moment} = report.forces;
+    if (!forceActs(report)) return report.failure ? '' : 'No cutting force acts.';
+    const size = `Cutting force: up to ${force > 0 ? `${fixed(force, 0)} N` : `${fixed(moment, 2)} N m`}.`;
+    return without.moves > 0 ? `${size} ${words.counted(without.moves, 'feed move')} without a force.` : size;
   }
 
   /** What the numbers rest on: place and datum of the part, force, tools, weights, temperature. */
@@ -196,5 +196,5 @@
     return [el('h1', null, 'Two runs compared'), sentence, both];
   }
 
-  counterflex.summary = {render, subtitle, reminders, tolerance};
+  counterflex.summary = {render, subtitle, reminders, forceSentence, tolerance};
 })();
