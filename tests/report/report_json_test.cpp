@@ -205,6 +205,7 @@ TEST_CASE("the JSON of a compensation has every key, in this order") {
     "largest_step_N": 50.0,
     "without_force": {
       "moves": 0,
+      "unknown_length": 0,
       "length_mm": 0.0,
       "reasons": [],
       "rows": []

@@ -1,5 +1,7 @@
 #include <doctest/doctest.h>
 
+#include <limits>
+
 #include "counterflex/report/formats.hpp"
 #include "made_up_run.hpp"
 #include "support/text.hpp"
@@ -109,15 +111,21 @@ TEST_CASE("moves without a force are listed by reason, in the summary and the JS
   RunReport report = compensated(run, small_compensation());
   for (int line = 14; line < 24; ++line) add_unforced(report.forces.without, {line, 7.5 * mm, "a plunge"});
   add_unforced(report.forces.without, {12, 4.2 * mm, "no speed"});
+  for (const int line : {30, 31})
+    add_unforced(report.forces.without,
+                 {line, std::numeric_limits<double>::quiet_NaN(), "the position in XY is unknown"});
   const std::string text = details_text(report, false), json = to_json(report);
   CHECK(contains(text,
-                 "  11 feed moves, 79.200 mm, cut without a force\n"
+                 "  13 feed moves, 79.200 mm, 2 of unknown length, cut without a force\n"
                  "    10 moves, 75.000 mm, from line 14 on: a plunge\n"
-                 "    1 move, 4.200 mm, from line 12 on: no speed\n"));
-  CHECK(contains(json, "\"moves\": 11,\n      \"length_mm\": 79.2,"));
-  CHECK(contains(json,
-                 "\"why\": \"no speed\",\n          \"moves\": 1,\n          \"length_mm\": 4.2,\n          "
-                 "\"first_line\": 12\n"));
+                 "    1 move, 4.200 mm, from line 12 on: no speed\n"
+                 "    2 moves, length unknown, from line 30 on: the position in XY is unknown\n"));
+  CHECK(contains(json, "\"moves\": 13,\n      \"unknown_length\": 2,\n      \"length_mm\": 79.2,"));
+  CHECK(
+      contains(json,
+               "\"why\": \"no speed\",\n          \"moves\": 1,\n          \"unknown_length\": 0,\n          "
+               "\"length_mm\": 4.2,\n          \"first_line\": 12\n"));
+  CHECK(contains(json, "\"moves\": 2,\n          \"unknown_length\": 2,\n          \"length_mm\": null,"));
   CHECK(contains(json, "\"rows\": [\n        {\n          \"line\": 12,\n          \"length_mm\": 4.2,"));
 }
 

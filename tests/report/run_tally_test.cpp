@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 #include <random>
 
 #include "counterflex/report/formats.hpp"
@@ -203,10 +204,14 @@ TEST_CASE("moves without a force are counted, with their length, by reason, and 
 TEST_CASE("with many different reasons the last row collects the rest") {
   WithoutForce without;
   for (int i = 0; i < 300; ++i) add_unforced(without, {i + 1, mm, "reason " + std::to_string(i)});
+  add_unforced(without, {400, std::numeric_limits<double>::quiet_NaN(), "reason 400"});
   REQUIRE(without.reasons.size() == listed_at_most);
   CHECK(without.reasons[98].why == "reason 98");
   CHECK(without.reasons[99].why == "other reasons");
-  CHECK(without.reasons[99].moves == 201);
+  CHECK(without.reasons[99].moves == 202);
+  CHECK(without.reasons[99].unknown_length == 1);
+  CHECK(without.unknown_length == 1);
+  CHECK(without.reasons[99].length_mm == doctest::Approx(201));
   CHECK(without.reasons[99].first_line == 100);
 }
 

@@ -221,8 +221,9 @@ class FeedTally {
 struct WithoutForceReason {
   std::string why;
   std::size_t moves = 0;
-  double length_mm = 0;  ///< NaN: that of some is not known
-  int first_line = 0;    ///< the least
+  std::size_t unknown_length = 0;  ///< of them
+  double length_mm = 0;            ///< of the others
+  int first_line = 0;              ///< the least
 };
 
 /// One of them.
@@ -234,7 +235,8 @@ struct WithoutForceRow {
 
 struct WithoutForce {
   std::size_t moves = 0;
-  double length_mm = 0;  ///< of those with a known length; NaN: of none
+  std::size_t unknown_length = 0;  ///< of them
+  double length_mm = 0;            ///< of the others
   /// As they were first met; where there are more than `listed_at_most` the last one represents all others.
   std::vector<WithoutForceReason> reasons;
   Capped<WithoutForceRow> rows;

@@ -53,16 +53,21 @@ Json feed_moves_json(const RunReport& report) {
 }
 
 Json without_force_json(const WithoutForce& without) {
+  const auto length = [](const auto& sum) {
+    return sum.moves > 0 && sum.unknown_length == sum.moves ? Json(nullptr) : number(sum.length_mm, digits);
+  };
   Json reasons = Json::array(), rows = Json::array();
   for (const WithoutForceReason& reason : without.reasons)
     reasons.push_back({{"why", reason.why},
                        {"moves", reason.moves},
-                       {"length_mm", number(reason.length_mm, digits)},
+                       {"unknown_length", reason.unknown_length},
+                       {"length_mm", length(reason)},
                        {"first_line", reason.first_line}});
   for (const WithoutForceRow& row : without.rows.rows)
     rows.push_back({{"line", row.line}, {"length_mm", number(row.length_mm, digits)}, {"why", row.why}});
   return {{"moves", without.moves},
-          {"length_mm", number(without.length_mm, digits)},
+          {"unknown_length", without.unknown_length},
+          {"length_mm", length(without)},
           {"reasons", std::move(reasons)},
           {"rows", std::move(rows)}};
 }

@@ -16,21 +16,23 @@ WithoutForceReason& reason_of(const Unforced& move, std::vector<WithoutForceReas
     reasons.back().why = "other reasons";
     return reasons.back();
   }
-  return reasons.emplace_back(WithoutForceReason{move.why, 0, 0, move.line});
+  return reasons.emplace_back(WithoutForceReason{.why = move.why, .first_line = move.line});
 }
 
 }  // namespace
 
 void add_unforced(WithoutForce& without, const Unforced& move) {
   const double length_mm = move.length / mm;
-  if (without.moves == 0 || std::isnan(without.length_mm))
-    without.length_mm = length_mm;
-  else if (!std::isnan(length_mm))
-    without.length_mm += length_mm;
-  ++without.moves;
   WithoutForceReason& reason = reason_of(move, without.reasons);
-  ++reason.moves;
-  reason.length_mm += length_mm;
+  const auto add_to = [&](auto& sum) {
+    ++sum.moves;
+    if (std::isnan(length_mm))
+      ++sum.unknown_length;
+    else
+      sum.length_mm += length_mm;
+  };
+  add_to(without);
+  add_to(reason);
   reason.first_line = std::min(reason.first_line, move.line);
   list(without.rows, WithoutForceRow{move.line, length_mm, move.why});
 }

@@ -37,20 +37,23 @@ std::string sensitivity_text(const RunReport& report) {
   return text + wrapped("  ", without, 2);
 }
 
-std::string length_text(double length_mm) {
-  return std::isnan(length_mm) ? "length unknown" : format_fixed(length_mm, 3) + " mm";
+/// Of all moves, or of the moves of one reason.
+std::string length_text(const auto& sum) {
+  if (sum.unknown_length == sum.moves) return "length unknown";
+  const std::string known = format_fixed(sum.length_mm, 3) + " mm";
+  return sum.unknown_length == 0 ? known : fmt::format("{}, {} of unknown length", known, sum.unknown_length);
 }
 
 std::string without_force_text(const WithoutForce& without) {
   if (without.moves == 0) return "";
   std::string text = fmt::format("  {}, {}, cut without a force\n", counted(without.moves, "feed move"),
-                                 length_text(without.length_mm));
+                                 length_text(without));
   const std::size_t shown = std::min(shown_reasons, without.reasons.size());
   for (std::size_t i = 0; i < shown; ++i) {
     const WithoutForceReason& reason = without.reasons[i];
     text += wrapped("    ",
                     fmt::format("{}, {}, from line {} on: {}", counted(reason.moves, "move"),
-                                length_text(reason.length_mm), reason.first_line, reason.why),
+                                length_text(reason), reason.first_line, reason.why),
                     6);
   }
   if (without.reasons.size() > shown)

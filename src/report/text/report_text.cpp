@@ -215,7 +215,7 @@ std::string zones_text(const RunReport& report) {
 
 std::string program_text(const RunReport& report, const Ink& ink) {
   const BlockCounts& blocks = report.blocks;
-  if (report.failure && !report.text_after) return "";
+  if (report.failure) return "";
   std::string text = line_break() + ink.bold("Program") + "\n";
   if (report.command == Command::predict)
     return text + fmt::format("  {}, {}\n", counted(blocks.total, "block"), counted(blocks.moves, "move")) +

@@ -109,7 +109,7 @@ std::string dialect_text(const RunReport& report) {
 
 std::string moves_line(const RunReport& report) {
   const BlockCounts& blocks = report.blocks;
-  if (report.failure && !report.text_after) return "";
+  if (report.failure) return "";
   if (report.command != Command::compensate)
     return item("program",
                 dialect_text(report) +
