@@ -8,6 +8,7 @@
 #include "counterflex/program/read_program.hpp"
 #include "counterflex/sanity/checks.hpp"
 #include "run/program_axes.hpp"
+#include "run/work.hpp"
 
 namespace counterflex::cli {
 namespace {
@@ -32,19 +33,25 @@ std::vector<WorkFrame> frames_in_use(const PlacedProgram& placed) {
 }
 
 SanityCheck check_selected_offsets(const Overview& program, const Machine& machine) {
-  bool in_use = false;
+  bool gives_base = false, in_machine_frame = false;
   std::vector<std::string> names;
   for (std::size_t i = 0; i < program.frame_lines.size(); ++i) {
     if (program.frame_lines[i] == 0) continue;
-    in_use = true;
-    if (!program.frames[i].pose_mm) names.push_back(program.frames[i].work_offset);
+    const ProgramFrame& frame = program.frames[i];
+    if (frame.pose_mm)
+      gives_base = true;
+    else if (is_placed_by_program(program, frame))
+      in_machine_frame = true;
+    else
+      names.push_back(frame.work_offset);
   }
-  if (!in_use) return {"work offset", SanityState::ok, "no move with a known position uses one"};
-  // A robot program that selects no base has its targets in the machine frame, not in G54.
-  const bool in_machine_frame = is_robot_dialect(program.dialect) &&
-                                std::ranges::all_of(names, [](const auto& name) { return name.empty(); });
-  const bool stated = !machine.work.empty() || machine.work_is_machine_frame;
-  return check_work_offset(names, stated && !in_machine_frame);
+  if (names.empty() && in_machine_frame)
+    return {"work offset", SanityState::ok,
+            gives_base ? "the program gives its base: coordinates without one are machine coordinates"
+                       : "the program does not select one: its coordinates are machine coordinates"};
+  if (names.empty() && !gives_base)
+    return {"work offset", SanityState::ok, "no move with a known position uses one"};
+  return check_work_offset(names, !machine.work.empty() || machine.work_is_machine_frame);
 }
 
 /// The machine with [tool], if some move uses it, and with the tools that change it.
@@ -128,7 +135,7 @@ SanityChecks run_sanity(const Run& run, const RunReport& report, const RunTally&
     checks.insert(home + 1, std::move(*stiffness));
   }
   checks.push_back(check_travel(run.machine.model.mechanism, tally.travel(), report.failure));
-  // A force that acts in holes alone has no direction of feed to judge it by.
+  // A force that acts only in holes and in blocks that only turn the tool has no direction of feed.
   if (tally.feed_force().loaded > 0 || report.forces.largest_N == 0 || report.failure)
     checks.push_back(check_feed_force(tally.feed_force(), are_computed(run), report.failure));
   append(checks, check_force_size(report.forces.largest_N));

@@ -206,12 +206,6 @@ WorkFrame place_given(const Machine& machine, const Model& model, const std::str
   return frame;
 }
 
-/// Whether no work offset is needed: the program gives the pose of its base, or a robot program selects
-/// none.
-bool is_placed_by_program(const Overview& program, const ProgramFrame& frame) {
-  return frame.pose_mm || (is_robot_dialect(program.dialect) && frame.work_offset.empty());
-}
-
 WorkPlace in_machine_frame(const Overview& program) {
   WorkPlace place;
   for (const ProgramFrame& frame : program.frames) {
@@ -223,6 +217,10 @@ WorkPlace in_machine_frame(const Overview& program) {
 }
 
 }  // namespace
+
+bool is_placed_by_program(const Overview& program, const ProgramFrame& frame) {
+  return frame.pose_mm || (is_robot_dialect(program.dialect) && frame.work_offset.empty());
+}
 
 WorkPlace place_work(const Machine& machine, const Model& model, const std::string& machine_file,
                      const Overview& program) {

@@ -18,6 +18,10 @@ struct WorkPlace {
   std::vector<Remark> assumptions;
 };
 
+/// Whether no work offset is needed: the program gives the pose of its base, or a robot program selects
+/// none.
+bool is_placed_by_program(const Overview& program, const ProgramFrame& frame);
+
 /// The true poses of the offsets used by moves of `program`; the default is G54. A datum that was touched off
 /// is at the tip of the unloaded machine without its thermal shift. Throws `InputError`
 /// (ErrorKind::machine_or_force) if the table lacks an offset, if the machine does not reach the touched
