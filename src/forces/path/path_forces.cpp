@@ -133,6 +133,18 @@ ForceSource settled(ForceSource source, const Program& program, const Toolpath& 
 
 constexpr double unknown_length = std::numeric_limits<double>::quiet_NaN();
 
+/// Steps of a feed run, counted along the run, become path lengths. `places`: where `segments` lie in the
+/// run.
+template <typename Place>
+void to_path_lengths(std::span<const Segment> segments, std::span<Place> places, std::span<double> steps) {
+  for (double& step : steps) {
+    const auto at = std::ranges::lower_bound(places, step, {}, &Place::s1);
+    assert(at != places.end());
+    const Segment& segment = segments[static_cast<std::size_t>(at - places.begin())];
+    step = std::min(segment.s_start + (step - at->s0), segment.s_end);
+  }
+}
+
 }  // namespace
 
 PathForces::PathForces(const ForceSource& source, const Program& program, const Toolpath& path,
@@ -173,13 +185,8 @@ PathForces::PathForces(const ForceSource& source, const Program& window, const T
   const auto close = [&] {
     const std::size_t first_step = steps_.size();
     close_run(source.blend);
-    for (std::size_t k = first_step; k < steps_.size(); ++k) {
-      const auto in_run = std::span(places_).subspan(first_segment);
-      const auto at = std::ranges::lower_bound(in_run, steps_[k], {}, &Place::s1);
-      assert(at != in_run.end());
-      const Segment& segment = path.segments[first_segment + static_cast<std::size_t>(at - in_run.begin())];
-      steps_[k] = std::min(segment.s_start + (steps_[k] - at->s0), segment.s_end);
-    }
+    to_path_lengths(std::span(path.segments).subspan(first_segment),
+                    std::span(places_).subspan(first_segment), std::span(steps_).subspan(first_step));
   };
   for (std::size_t i = 0; i < path.segments.size(); ++i) {
     const Segment& segment = path.segments[i];
