@@ -11,6 +11,7 @@
 #include "counterflex/program/guard.hpp"
 #include "counterflex/report/page.hpp"
 #include "report/plot/svg.hpp"
+#include "report/text/force_text.hpp"
 
 namespace counterflex {
 namespace {
@@ -284,8 +285,8 @@ class Sheet {
     return section("Tools, and the force that was assumed", "sheet-tools",
                    "<table>\n" + row_of({"Tool", "Length, mm", "Radius, mm", "Force on the tool"}, "th") +
                        rows + "</table>\n" + more(proof_.tools.size(), most_tools, "tools") + "<p>" +
-                       fmt::format("Largest force on the path: <b data-fact=\"force\">{}</b> N. ",
-                                   format_fixed(report_.forces.largest_N, 1)) +
+                       fmt::format("Largest force on the path: <b data-fact=\"force\">{}</b>. ",
+                                   largest_wrench(report_.forces)) +
                        "<span data-fact=\"force-uncertainty\">" + xml_escaped(force_uncertainty()) +
                        "</span></p>\n");
   }

@@ -63,6 +63,13 @@ std::string without_force_text(const WithoutForce& without) {
 
 }  // namespace
 
+std::string largest_wrench(const ForceSummary& forces) {
+  const std::string force = format_fixed(forces.largest_N, 1) + " N",
+                    moment = format_fixed(forces.largest_Nm, 2) + " N m";
+  if (forces.largest_Nm == 0) return force;
+  return forces.largest_N == 0 ? moment : force + " and " + moment;
+}
+
 std::string force_text(const RunReport& report, const Ink& ink) {
   const ForceSummary& forces = report.forces;
   if (!report.before) return "";
@@ -71,9 +78,9 @@ std::string force_text(const RunReport& report, const Ink& ink) {
     return text + (report.gravity.empty()
                        ? "  no cutting force given: only geometric errors count\n"
                        : "  no cutting force given: only geometric errors and weight count\n");
-  text += fmt::format(
-      "  up to {} N and {} N m {}\n", format_fixed(forces.largest_N, 1), format_fixed(forces.largest_Nm, 2),
-      forces.at_platform ? "at the platform's reference point (at = platform)" : "on the tool");
+  text +=
+      fmt::format("  up to {} {}\n", largest_wrench(forces),
+                  forces.at_platform ? "at the platform's reference point (at = platform)" : "on the tool");
   if (forces.ramps > 0)
     text += fmt::format("  {} of the profile acting as ramps\n", counted(forces.ramps, "step"));
   if (forces.jumps > 0)

@@ -8,6 +8,7 @@
 #include "counterflex/report/formats.hpp"
 #include "report/names.hpp"
 #include "report/tally/causes.hpp"
+#include "report/text/force_text.hpp"
 #include "report/text/offsets_text.hpp"
 #include "report/text/report_text.hpp"
 #include "report/text/text_layout.hpp"
@@ -89,7 +90,7 @@ std::string force_line(const RunReport& report) {
   if (forces.largest_N == 0 && forces.largest_Nm == 0)
     return item("force", report.gravity.empty() ? "none acts: geometric errors only"
                                                 : "none acts: geometric errors and weight only");
-  std::string text = fmt::format("up to {} N", format_fixed(forces.largest_N, 1));
+  std::string text = "up to " + largest_wrench(forces);
   if (forces.without.moves > 0)
     text += fmt::format(", {} without", counted(forces.without.moves, "feed move"));
   if (const auto& s = report.sensitivity)
