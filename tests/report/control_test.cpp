@@ -15,7 +15,7 @@ RunReport report_on(const std::string& original, const std::string& text, double
                     const std::string& dialect = "linuxcnc") {
   MadeUpRun run;
   run.job.read.dialect = dialect;
-  run.program = read_program(original, "made_up.ngc", run.job.read);
+  run.read(original, "made_up.ngc");
   Compensation c;
   c.text = text;
   c.waypoints.emplace_back().segment = no_segment;

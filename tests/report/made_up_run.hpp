@@ -45,11 +45,20 @@ struct MadeUpRun {
   }
 
   /// With the forces, and `waypoints` all at once.
-  RunTally tally(const std::vector<Waypoint>& waypoints) const {
+  RunTally tally(std::vector<Waypoint> waypoints) const {
+    for (Waypoint& w : waypoints)
+      if (w.segment < path.segments.size())
+        w.move = static_cast<std::uint32_t>(path.segments[w.segment].move);
     RunTally result(facts.min_block_ms);
     result.add_window(job);
     result.add_waypoints(waypoints, job);
     return result;
+  }
+
+  /// Replaces the program and its path.
+  void read(const std::string& text, const char* file) {
+    program = read_program(text, file, job.read);
+    path = build_toolpath(program, one_frame(program, {}));
   }
 };
 

@@ -114,8 +114,7 @@ TEST_CASE("lists are ordered by line and capped, counts are kept") {
 
 TEST_CASE("a plunge without lateral force is among the warnings") {
   MadeUpRun run;
-  run.program = read_program("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc", {});
-  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  run.read("G21 G90 G0 X0 Y0 Z5\nG1 Z0 F100\nX10\n", "p.ngc");
   ForceSource source;
   source.rules =
       read_force_csv("# frame = feed\n# sense = on_tool\nline,fx_N,fy_N,fz_N\n1,10,20,30\n", "f.csv");

@@ -327,8 +327,7 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
       "X90\n"
       "M30\n";
   MadeUpRun run;
-  run.program = read_program(text, "made_up.ngc", {});
-  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  run.read(text, "made_up.ngc");
   std::vector<Waypoint> path;
   for (std::size_t i = 0; i < run.path.segments.size(); ++i) {
     const Segment& segment = run.path.segments[i];
@@ -341,6 +340,7 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
   path.back().after.x() = 0.2 * mm;
   const Overview overview = overview_of(run.program);
   RunTally tally(2);
+  tally.add_window(run.job);
   tally.add_waypoints(path, run.job);
   const RunReport report = report_verification(run.context(overview), tally, overview, {});
   REQUIRE(report.operations.size() == 3);
@@ -364,11 +364,11 @@ TEST_CASE("operations are distinguished by tool and comment, and their sum is th
 
 TEST_CASE("two operations without a rapid between them both include the place between them") {
   MadeUpRun run;
-  run.program = read_program("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n\n(B)\nY30\nM30\n", "two.ngc", {});
-  run.path = build_toolpath(run.program, one_frame(run.program, {}));
+  run.read("G21 G90 G0 X0 Y0 Z0\n(A)\nG1 X10 F600\n\n(B)\nY30\nM30\n", "two.ngc");
   RunTally tally(2);
   std::vector<Waypoint> path{cut(0, 3, 10, Vector3(0.1, 0, 0)), cut(1, 6, 30, Vector3(0.05, 0, 0))};
   for (Waypoint& w : path) w.move = static_cast<std::uint32_t>(run.path.segments[w.segment].move);
+  tally.add_window(run.job);
   tally.add_waypoints(path, run.job);
   const std::vector<OperationTally> operations = tally.path().operations();
   REQUIRE(operations.size() == 2);

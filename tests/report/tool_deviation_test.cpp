@@ -45,7 +45,7 @@ std::vector<Waypoint> tilted(double tilt) {
 RunTally tally_with(const MadeUpRun& run, std::vector<ToolSize> sizes,
                     const std::vector<Waypoint>& waypoints) {
   RunTally tally(2, {}, std::move(sizes));
-  tally.add_forces(run.forces);
+  tally.add_window(run.job);
   tally.add_waypoints(waypoints, run.job);
   return tally;
 }

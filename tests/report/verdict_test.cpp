@@ -182,6 +182,27 @@ TEST_CASE("a feed move from an unknown position is unknown, but its end is corre
   CHECK(verdict_of(moves) == Verdict::partly);
 }
 
+TEST_CASE("a move that only turns the tool counts, and does not make up for one that is unknown") {
+  Reading run(
+      "DEF part( )\nPTP {X 600,Y 0,Z 500,A 0,B 0,C 180}\nLIN {X 650,Y 0,Z 500,A 0,B 0,C 180}\n"
+      "LIN {X 650,Y 0,Z 500,A 3,B 0,C 180}\npocket()\nEND\n");
+  run.solve(0, 3, 0.001);
+  run.solve(1, 4, 0.001);
+  const FeedMoves moves = run.tally.moves();
+  CHECK(moves.count == 3);
+  CHECK(moves.within == 2);
+  CHECK(moves.unknown == 1);
+  CHECK(moves.unknown_length == 1);
+  CHECK(verdict_of(moves) == Verdict::partly);
+}
+
+TEST_CASE("a hole that is measured twice does not make up for one that is unknown") {
+  Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG99 G81 X10 Y0 Z-8 R2 F100\nX20\nG80\n");
+  run.solve(no_segment, 2, 0.001, false);
+  run.solve(no_segment, 2, 0.001, false);
+  CHECK(run.tally.moves().unknown == 1);
+}
+
 TEST_CASE("a feed move without length does not count") {
   Reading run("G21 G90 G54 G0 X0 Y0 Z5\nG1 X0 F100\nX10\n");
   run.solve(0, 3, 0.001);

@@ -171,8 +171,8 @@ class RunTally {
   /// The next waypoints of the path, cut anywhere; of the operations of their moves nothing is known.
   void add_waypoints(const std::vector<Waypoint>& waypoints);
 
-  /// The same for waypoints of a window, or some of them: those of a corner together. Lists corners that miss
-  /// the tolerance.
+  /// The same for waypoints of the window that was added last, or some of them: those of a corner together.
+  /// Lists corners that miss the tolerance.
   void add_waypoints(const std::vector<Waypoint>& waypoints, const Job& window);
 
   /// The next window's moves and forces, before its waypoints.

@@ -2,6 +2,7 @@
 /// How far the tip is off along a path, in a few numbers. Lengths in mm and angles in degrees, as reports
 /// show them.
 #include <cstddef>
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -200,17 +201,26 @@ class FeedTally {
   /// The moves of the next window.
   void add_window(const Job& window);
 
-  /// A waypoint of that window; waypoints come in the order of its moves. `miss`: see `position_miss` (m).
+  /// A waypoint of the window that was added last; waypoints come in the order of its moves. `miss`: see
+  /// `position_miss` (m).
   void add(const Waypoint& w, double miss, const Job& window);
 
   /// Without `within_mm`: pieces of lines and arcs are measured elsewhere.
   FeedMoves moves() const;
 
  private:
-  void add_measured(bool is_within);
+  /// The feed moves and holes of a move.
+  struct Parts {
+    std::uint32_t count = 0;
+    std::uint32_t known_lengths = 0;
+    std::uint32_t measured = 0;
+  };
 
-  FeedMoves moves_;
-  std::size_t known_lengths_ = 0;
+  static void add_unknown(const std::vector<Parts>& window, FeedMoves& moves);
+  void add_measured(std::size_t move, bool is_within);
+
+  FeedMoves moves_;                     ///< unknown ones: of the windows before
+  std::vector<Parts> parts_;            ///< of the moves of the window
   std::optional<std::size_t> segment_;  ///< of the last waypoint of a feed move
   bool missed_ = false;                 ///< that move misses the tolerance
 };

@@ -21,6 +21,7 @@ WindowEvents events_of(Windows& windows, const Run& run, Console& console, RunTa
     const std::lock_guard alone(windows.speaking());
     for (const ForceNote& note : job.forces.notes())
       if (notes.insert(note.what).second) console.warning(run.program.file, note.line, note.what);
+    tally.add_window(job);
   };
   return events;
 }

@@ -11,7 +11,8 @@ namespace {
 
 bool rests(const Move& move) {
   return move.handling != Handling::held && !move.arc && !any_axis(move.fixed) &&
-         all_known(move.known_start) && all_known(move.known_end) && move.start_mm == move.end_mm;
+         all_known(move.known_start) && all_known(move.known_end) && move.start_mm == move.end_mm &&
+         !(move.orientation && move.orientation->start != move.orientation->end);
 }
 
 // A cycle is called at its end, which is checked.
@@ -20,33 +21,48 @@ bool cuts_at_end(const Move& move) {
 }
 
 /// Number of feed moves and holes of a move.
-std::size_t count_of(const Move& move, const Program& program) {
+std::uint32_t count_of(const Move& move, const Program& program) {
   if (cuts_at_end(move)) return 1;
-  if (move.cycle) return static_cast<std::size_t>(count_of_holes(move));
+  if (move.cycle) return static_cast<std::uint32_t>(count_of_holes(move));
   if (move.motion == Motion::rapid) return may_cut(move, program) ? 1 : 0;
   return rests(move) ? 0 : 1;
 }
 
 }  // namespace
 
-void FeedTally::add_window(const Job& window) {
-  for (const LeftAlone& block : window.program.left_alone) moves_.count += block.feeds;
-  for (const Move& move : window.program.moves) {
-    if (move.mills_at_end) ++moves_.count;  // the length milled around the end is unknown
-    moves_.count += count_of(move, window.program);
-    const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
-    known_lengths_ += fractions_of_holes(move).size() + first_known;
+// What one move has more than is expected of it must not make up for another one: unknown ones are counted
+// move by move.
+void FeedTally::add_unknown(const std::vector<Parts>& window, FeedMoves& moves) {
+  for (const Parts& parts : window) {
+    const std::uint32_t unknown = parts.count - std::min(parts.count, parts.measured);
+    moves.unknown += unknown;
+    moves.unknown_length += std::min(unknown, parts.count - std::min(parts.count, parts.known_lengths));
   }
-  moves_.count += parts_corner(window.program);
+}
+
+void FeedTally::add_window(const Job& window) {
+  add_unknown(parts_, moves_);
+  parts_.clear();
+  std::size_t lost = parts_corner(window.program);
+  for (const LeftAlone& block : window.program.left_alone) lost += block.feeds;
+  for (const Move& move : window.program.moves) {
+    lost += move.mills_at_end;  // the length milled around the end is unknown
+    const bool first_known = cuts_at_end(move) && !all_known(move.known_start) && all_known(move.known_end);
+    const auto holes = static_cast<std::uint32_t>(fractions_of_holes(move).size());
+    parts_.push_back({count_of(move, window.program), holes + first_known});
+  }
+  moves_.unknown += lost;
+  moves_.unknown_length += lost;
   for (const Segment& segment : window.path.segments) {
     if (!segment.cutting && !cuts_at_end(window.program.moves[segment.move])) continue;
-    ++known_lengths_;
+    ++parts_[segment.move].known_lengths;
     if (segment.cutting) moves_.length_mm += length(segment.wanted) / mm;
   }
   segment_.reset();
 }
 
-void FeedTally::add_measured(bool is_within) {
+void FeedTally::add_measured(std::size_t move, bool is_within) {
+  ++parts_[move].measured;
   ++(is_within ? moves_.within : moves_.missed);
 }
 
@@ -63,11 +79,11 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
     moves_.worst_mm = miss / mm;
     moves_.worst_line = w.line;
   }
-  if (hole) return add_measured(is_within);
+  if (hole) return add_measured(w.move, is_within);
   if (segment_ != w.segment) {
     segment_ = w.segment;
     missed_ = !is_within;
-    return add_measured(is_within);
+    return add_measured(w.move, is_within);
   }
   if (is_within || missed_) return;
   missed_ = true;
@@ -77,9 +93,8 @@ void FeedTally::add(const Waypoint& w, double miss, const Job& window) {
 
 FeedMoves FeedTally::moves() const {
   FeedMoves moves = moves_;
-  const std::size_t measured = moves.within + moves.missed;
-  moves.unknown = moves.count - std::min(moves.count, measured);
-  moves.unknown_length = std::min(moves.unknown, moves.count - std::min(moves.count, known_lengths_));
+  add_unknown(parts_, moves);
+  moves.count = moves.within + moves.missed + moves.unknown;
   return moves;
 }
 
