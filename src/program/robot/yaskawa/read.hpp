@@ -28,8 +28,7 @@ struct JbiReading {
   bool is_shifted = false;                ///< SFTON is active, or may be
   int call_line = 0;                      ///< of the first call, which may change position variables
   std::optional<JbiAuxiliary> auxiliary{};
-  std::optional<long> job_user{};  ///< of ////FRAME USER n
-  bool is_relative = false;        ///< ATTR RJ
+  bool is_relative = false;  ///< ATTR RJ
 };
 
 /// Reads the statement of `line`. Throws `InputError` with line and column.
