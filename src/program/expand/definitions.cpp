@@ -60,7 +60,7 @@ class Finder {
   void note(Block& block) {
     if (!lexes(text_, file_, dialect_, block)) return;
     const LinePlace place{block.span.begin, block.line};
-    if (is_word(part(text_, block.flow_keyword), "SUB"))
+    if (is_word(part(text_, block.flow_keyword), "SUB") && empty(block.block_delete))
       add({NameKind::word, normal_name(part(text_, block.flow_name))}, place);
     for (const Word& word : block.words) {
       if (word.letter == 'O' && (!dialect_.o_words || ended_))

@@ -22,7 +22,7 @@ std::optional<Definition> definition_at(const ProgramText& program, const Block&
   SubprogramName name;
   if (dialect.sinumerik_words) return std::nullopt;
   if (dialect.o_words) {
-    if (!is_word(part(text, block.flow_keyword), "SUB")) return std::nullopt;
+    if (!is_word(part(text, block.flow_keyword), "SUB") || !empty(block.block_delete)) return std::nullopt;
     name = {NameKind::word, normal_name(part(text, block.flow_name))};
   } else if (!is_program_number(block) || numbered_programs < 2) {
     return std::nullopt;

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 
+#include "program/expand/definitions.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/other_moves.hpp"
 #include "program/gcode/moves/read_move.hpp"
@@ -78,11 +79,49 @@ void open_body(Reading& r, std::string name) {
 
 void open_subprogram(Reading& r, std::string name) {
   const bool outermost = r.body.open.empty();
+  const ModalState before = r.state;
   open_body(r, std::move(name));
   if (!outermost) return;
+  r.body.open.back().before = before;
   r.body.subprogram = true;
   r.moved_by_machine.fill(true);
   forget_state(r.state);
+}
+
+/// "o100 sub".
+void open_definition(const Block& block, Reading& r, const std::string& name) {
+  if (!empty(block.block_delete))
+    refuse(r.program.file, block, block.flow_keyword.begin,
+           "'/' may skip the begin of this subprogram: then its body runs here; remove the '/'");
+  if (r.body.open.empty())
+    r.body.before_definition = {r.program.moves.size(),
+                                r.program.operations.size(),
+                                r.run_begin,
+                                r.moved_by_machine,
+                                r.operation,
+                                r.variables};
+  open_subprogram(r, name);
+}
+
+/// LinuxCNC reads a definition without executing it: its end restores everything. Behind a move of the
+/// program, blocks of a definition are not moves. Before the first one they stay in the list: a text that
+/// only defines subprograms is called from other files.
+void close_definition(Reading& r) {
+  BeforeDefinition& before = r.body.before_definition;
+  if (r.program.before || before.moves > r.body.defined_moves) {
+    r.program.moves.resize(before.moves);
+    r.program.operations.resize(before.operations);
+    r.program.operation_titles.resize(before.operations);
+    r.operation = std::move(before.operation);
+    r.run_begin = before.run_begin;
+  } else {
+    r.body.defined_moves = r.program.moves.size();
+  }
+  r.moved_by_machine = before.moved_by_machine;
+  r.variables = std::move(before.variables);
+  r.state = std::move(r.body.open.front().before);
+  r.body.open.clear();
+  r.body.subprogram = false;
 }
 
 void close_body(Reading& r) {
@@ -203,6 +242,14 @@ bool closes(const FlowLine& line) {
   return line.is("ENDIF") || line.is("ENDWHILE") || line.is("ENDREPEAT") || line.is("ENDSUB");
 }
 
+/// Whether the line ends the outermost definition, as LinuxCNC looks for its end: by the name alone.
+bool ends_definition(const Reading& r, const FlowLine& line) {
+  if (!line.is("ENDSUB") || !r.body.subprogram) return false;
+  const std::string begun = normal_name(r.body.open.front().name), ended = normal_name(line.name);
+  const bool is_computed = begun.empty() || ended.empty();
+  return is_computed ? r.body.open.size() == 1 : begun == ended;
+}
+
 [[noreturn]] void refuse_end(const Block& block, const Reading& r, const FlowLine& line) {
   refuse(r.program.file, block, block.flow_keyword.begin, fmt::format("'{}' has no beginning", line.keyword));
 }
@@ -210,7 +257,8 @@ bool closes(const FlowLine& line) {
 void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
   const std::string opened_do = line.name + " DO";
   if (line.is("CALL")) return call(block, r, called_program(line.name));
-  if (line.is("SUB")) return open_subprogram(r, line.name);
+  if (line.is("SUB")) return open_definition(block, r, line.name);
+  if (ends_definition(r, line)) return close_definition(r);
   if (closes(line)) {
     if (r.body.open.empty()) refuse_end(block, r, line);
     return close_body(r);

@@ -20,12 +20,23 @@ struct OpenStructure {
   ModalState before{};  ///< state before it
 };
 
+/// What a control has at the begin of a definition that it does not execute, besides its modal state.
+struct BeforeDefinition {
+  std::size_t moves = 0, operations = 0;  ///< numbers of them in the program
+  std::size_t run_begin = 0;              ///< as in Reading, as the following
+  std::array<bool, 3> moved_by_machine{};
+  CurrentOperation operation{};
+  Variables variables{};
+};
+
 /// The conditions, loops and subprograms around a block. Blocks in them may run never or several times.
 struct Body {
   std::vector<OpenStructure> open;
   std::optional<ModalState> left{};  ///< state of the paths that leave the outermost structure before its end
   bool subprogram = false;  ///< the outermost structure is a subprogram, which does not run at its place
-  bool jumps = false;       ///< GOTO makes the whole program a body
+  BeforeDefinition before_definition{};  ///< of a subprogram of O-words that is the outermost structure
+  std::size_t defined_moves = 0;  ///< number of moves in definitions before the first move of the program
+  bool jumps = false;             ///< GOTO makes the whole program a body
   /// Bits of Displacement that began behind the last line of flow: another block of the same run may end
   /// them.
   std::uint16_t begun = 0;

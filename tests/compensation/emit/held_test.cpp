@@ -71,6 +71,26 @@ TEST_CASE("a call of a subprogram refuses a correction that holds") {
   CHECK(failure->line == 6);
 }
 
+TEST_CASE("a definition between the moves ends no correction: the call behind it refuses it") {
+  const std::string end = "G0 X1. Y2. Z3.\nM30\n";
+  for (const char* call : {"o100 call\n", "o[100] call\n", "M98 P77\n"}) {
+    CAPTURE(call);
+    const std::string text = "G21 G90\nG0 X0. Y0. Z5.\no100 sub\nG0 X50.\no100 endsub [1]\n";
+    CHECK(!failure_on(perfect_gantry(), text + call + end));
+    const auto failure = failure_on(displaced_gantry(), text + call + end);
+    REQUIRE(failure);
+    CHECK(failure->line == 6);
+  }
+}
+
+TEST_CASE("a subprogram that is not called does not change what is corrected") {
+  const std::string text =
+      "G21 G90\nG0 X0. Y0. Z5.\no100 sub\nG91 G1 X50. F100\no100 endsub\nG1 X10. F200\nM30\n";
+  const Compensation result = compensated(Shop({.machine = displaced_gantry(), .text = text}));
+  CHECK(lines_of(result.text)[3] == "G91 G1 X50. F100");
+  CHECK(lines_of(result.text)[5] == "G1 X9.5 F200");
+}
+
 TEST_CASE("after a machine position an axis holds nothing that an expression could break") {
   const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG53 G0 Z0.\nZ#1\nM30\n";
   CHECK(!failure_on(displaced_gantry(), text));

@@ -295,11 +295,12 @@ TEST_CASE("blocks in a definition do not run when all calls are expanded, but th
   CHECK(program.moves.size() == 3);
   CHECK(program.left_alone.empty());
   CHECK(expanded(program.text).moves.size() == 3);
-  CHECK(expanded(go + subs + "o1 call\no2 call\nX3\nM2\n").moves.size() == 5);
+  CHECK(expanded(go + subs + "o1 call\no2 call\nX3\nM2\n").moves.size() == 4);
+  CHECK(expanded(subs + go + "o1 call\no2 call\nX3\nM2\n").moves.size() == 5);
   const Program numbered = expanded("O2\nX1.\nM99\nO1\n" + go + "M98 P2\nM30\n", "fanuc");
   CHECK(path_of(numbered) == path_of(read(fanuc_go + "X1.\nM30\n", "fanuc")));
   // A file of subprograms is for calls from other files.
-  CHECK(expanded("G21\no1 sub\nG1 X7\no1 endsub\nM2\n").moves.size() == 1);
+  CHECK(expanded("G21\no1 sub\nG1 X7\no1 endsub\no2 sub\nG1 X8\no2 endsub\nM2\n").moves.size() == 2);
   // Here O2 may be the program, which runs over and over.
   CHECK(expanded("O2\n" + go + "M98 P3\nM99\nO3\nX1.\nM99\n", "fanuc").moves.size() == 3);
 }

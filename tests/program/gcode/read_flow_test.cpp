@@ -105,6 +105,46 @@ TEST_CASE("the body of a subprogram does not run at its place, and a call may mo
   CHECK(fixed_moves("G65 P9010 I1. J2. I3.\nG90 G17 G98 G40 G0 X6.\n", "fanuc") == Fixed{true, false});
 }
 
+TEST_CASE("LinuxCNC executes nothing of a definition: behind it everything is as before") {
+  const std::string begin = origin_block + "G1 X20. F300\n(SLOT)\n#1=5\n", end = "X30.\nY#1\n";
+  ReadOptions options;
+  options.dialect = "linuxcnc";
+  options.evaluate = true;
+  const auto moves_of = [&](const std::string& text) { return read_program(text, "p.ngc", options).moves; };
+  const std::vector<Move> expected = moves_of(begin + end);
+  for (const char* const definition :
+       {"o1 sub\nG1 X30.\no1 endsub\n", "o<cut> sub\nG53 G0 Z0.\no<CUT> endsub [1]\n",
+        "o1 sub\n(OTHER)\n#1=7 G91 G20 G18 G93\nM6 T5\nG0 Z3.\nM2\no1 endsub\n",
+        "o1 sub\nG92 X3. Y2.\nG10 L2 P1 X4.\nG55 G41.1 D3\nX1.\no1 endsub\n", "o[1] sub\nX3.\no[1] endsub\n",
+        "o1 sub\no2 sub\nX3.\no2 endsub\nX4.\no1 endsub\n", "o1 sub\no2 if [1]\nX3.\no01 endsub\n",
+        "o1 sub\no3 call\nX3.\no1 endsub\n", "o1 sub\no1 endsub\n"}) {
+    CAPTURE(definition);
+    const std::vector<Move> moves = moves_of(begin + definition + end);
+    REQUIRE(moves.size() == expected.size());
+    for (std::size_t m = 0; m < moves.size(); ++m) {
+      CHECK(moves[m].known_start == expected[m].known_start);
+      CHECK(moves[m].known_end == expected[m].known_end);
+      CHECK(moves[m].end_mm == expected[m].end_mm);
+      CHECK(moves[m].feed_mm_min == expected[m].feed_mm_min);
+      CHECK(moves[m].unit == expected[m].unit);
+      CHECK(moves[m].frame == expected[m].frame);
+      CHECK(moves[m].tool == expected[m].tool);
+      CHECK(moves[m].operation == expected[m].operation);
+      CHECK_FALSE(is_fixed(moves[m]));
+    }
+  }
+}
+
+TEST_CASE("a subprogram whose begin '/' may skip is refused: its body may run at its place") {
+  for (const bool expands : {false, true}) {
+    ReadOptions options;
+    options.dialect = "linuxcnc";
+    options.expand_subprograms = expands;
+    const std::string text = origin_block + "/o1 sub\nX30.\n/o1 endsub\nX40.\n";
+    CHECK(diagnostic_of([&] { read_program(text, "p.ngc", options); }).find("p.ngc:2:") == 0);
+  }
+}
+
 TEST_CASE("behind a call arcs need G90.1 or G91.1 only where the control has them, and cycles never") {
   const std::string call = "M98 P100\nG90 G17 G98 G40 G0 X0. Y0. Z20.\n";
   const std::string arc = "G2 X10. Y10. I10. J0.\n", cycle = "G81 X10. Y10. Z-5. R2.\n";
