@@ -64,6 +64,7 @@ class Evaluation {
   static constexpr int deepest = 100;
 
   bool has_brackets() const { return open_ == '['; }
+  bool is_linuxcnc() const { return syntax_ == ExpressionSyntax::linuxcnc; }
   char peek() const { return at_ < text_.size() ? text_[at_] : '\0'; }
   bool take(std::string_view what) {
     if (std::string_view(text_).substr(at_, what.size()) != what) return false;
@@ -115,7 +116,7 @@ class Evaluation {
 
   /// LinuxCNC accepts other values than 0 and 1 as truth values; Fanuc combines their bits.
   Value logic_of(double a, std::string_view name, Value b) const {
-    const auto is_truth = [&](double x) { return syntax_ == ExpressionSyntax::linuxcnc || x == 0 || x == 1; };
+    const auto is_truth = [&](double x) { return is_linuxcnc() || x == 0 || x == 1; };
     if (!b || !is_truth(a) || !is_truth(*b)) return std::nullopt;
     return joined(a != 0, name, *b != 0);
   }
@@ -136,7 +137,7 @@ class Evaluation {
       if (!comparison) break;
       const Value other = sum();
       if (!other) return std::nullopt;
-      value = compared(*value, *comparison, *other, syntax_ == ExpressionSyntax::linuxcnc);
+      value = compared(*value, *comparison, *other, is_linuxcnc());
       if (!value) depends_on_rounding_ = true;
     }
     return value;
@@ -176,8 +177,9 @@ class Evaluation {
       if (times || over) ++at_;
       const Value other = power();
       if (!other || (!times && *other == 0)) return std::nullopt;
-      if (modulo && (*value < 0 || *other < 0)) return std::nullopt;  // the result depends on the control
-      value = times ? *value * *other : modulo ? std::fmod(*value, *other) : *value / *other;
+      value = times    ? *value * *other
+              : modulo ? remainder_of(*value, *other, is_linuxcnc())
+                       : Value(*value / *other);
       if (divides) value = std::trunc(*value);
     }
     return value;
@@ -251,9 +253,10 @@ class Evaluation {
     if (!argument) return std::nullopt;
     if (has_brackets() && name == "atan" && take("/")) {
       const Value second = peek() == open_ ? bracket() : std::nullopt;
-      return second && *argument >= 0 ? Value(std::atan2(*argument, *second) / deg) : std::nullopt;
+      return second && (*argument >= 0 || is_linuxcnc()) ? Value(std::atan2(*argument, *second) / deg)
+                                                         : std::nullopt;
     }
-    return value_of_function(name, *argument);
+    return value_of_function(name, *argument, is_linuxcnc());
   }
 
   Value atan_of_two() {

@@ -1,6 +1,7 @@
 #include "program/evaluate/constant_operators.hpp"
 
 #include <cmath>
+#include <limits>
 
 #include "counterflex/geometry/types.hpp"
 
@@ -10,11 +11,19 @@ namespace {
 constexpr double closeness = 1e-6;
 constexpr double widest_closeness = 1.001e-4;  // of LinuxCNC 2.9; 1e-6 in its manual
 
+/// ROUND of LinuxCNC adds a half and truncates to an int.
+std::optional<double> rounded_by_linuxcnc(double x) {
+  const double sum = x + (x < 0 ? -0.5 : 0.5);
+  if (!(std::abs(sum) < std::numeric_limits<int>::max())) return std::nullopt;
+  return static_cast<int>(sum);
+}
+
 }  // namespace
 
-std::optional<double> value_of_function(std::string_view name, double x) {
+std::optional<double> value_of_function(std::string_view name, double x, bool of_linuxcnc) {
   const bool differs = name == "round" || name == "fix" || name == "fup" || name == "asin" || name == "atan";
-  if (differs && x < 0) return std::nullopt;
+  if (differs && x < 0 && !of_linuxcnc) return std::nullopt;
+  if (name == "round" && of_linuxcnc) return rounded_by_linuxcnc(x);
   if (name == "sin") return std::sin(x * deg);
   if (name == "cos") return std::cos(x * deg);
   if (name == "tan") return std::tan(x * deg);
@@ -31,6 +40,12 @@ std::optional<double> value_of_function(std::string_view name, double x) {
   if (name == "trunc") return std::trunc(x);
   if (name == "pot") return x * x;
   return std::nullopt;
+}
+
+std::optional<double> remainder_of(double a, double b, bool of_linuxcnc) {
+  if ((a < 0 || b < 0) && !of_linuxcnc) return std::nullopt;
+  const double remainder = std::fmod(a, b);
+  return remainder < 0 ? remainder + std::abs(b) : remainder;
 }
 
 std::optional<double> compared(double a, Relation comparison, double b, bool equal_if_close) {

@@ -5,8 +5,13 @@
 
 namespace counterflex {
 
-/// A function of one argument. Empty if controls differ: some round negative values in another direction.
-std::optional<double> value_of_function(std::string_view name, double x);
+/// A function of one argument. Of other controls than LinuxCNC the value is empty if they differ: some round
+/// negative values in another direction.
+std::optional<double> value_of_function(std::string_view name, double x, bool of_linuxcnc);
+
+/// The remainder of a / b. That of LinuxCNC is not negative. Of other controls it is empty if a or b is
+/// negative: they differ.
+std::optional<double> remainder_of(double a, double b, bool of_linuxcnc);
 
 enum class Relation { equal, unequal, less, less_equal, greater, greater_equal };
 

@@ -77,6 +77,37 @@ TEST_CASE("expressions have the values that LinuxCNC computes") {
   CHECK(bracketed("FIX[2.8]") == 2);
 }
 
+TEST_CASE("LinuxCNC rounds negative values and computes MOD of them as its interpreter shows") {
+  struct Case {
+    const char* expression;
+    double value;
+  };
+  for (const Case& of : {Case{"FIX[-2.5]", -3},
+                         {"FIX[-3]", -3},
+                         {"FUP[-2.5]", -2},
+                         {"FUP[-3]", -3},
+                         {"ROUND[-2.4]", -2},
+                         {"ROUND[-2.5]", -3},
+                         {"ROUND[-2.6]", -3},
+                         {"ROUND[-0.5]", -1},
+                         {"[-7 MOD 4]", 1},
+                         {"[7 MOD -4]", 3},
+                         {"[-7 MOD -4]", 1},
+                         {"[-8 MOD 4]", 0},
+                         {"[-0.5 MOD 3]", 2.5},
+                         {"[7.5 MOD -2]", 1.5}}) {
+    CAPTURE(std::string(of.expression));
+    CHECK(bracketed(of.expression) == of.value);
+    for (const ExpressionSyntax other : {ExpressionSyntax::macro, ExpressionSyntax::brackets})
+      CHECK_FALSE(bracketed(of.expression, other).has_value());
+  }
+  CHECK(bracketed("ROUND[0.49999999999999994]") == 1);  // adds 0.5 and truncates
+  CHECK(std::abs(*bracketed("ASIN[-0.5]") + 30) < 1e-12);
+  CHECK(std::abs(*bracketed("ATAN[-1]/[-2]") + 153.434948822922) < 1e-9);
+  CHECK_FALSE(bracketed("ROUND[3000000000] / 1000").has_value());  // beyond the integers of LinuxCNC
+  CHECK(end_of("#1=-2.5\nG1 X[FIX[#1]] Y[#1 MOD 2]\n") == Vector3(-3, 1.5, 5));
+}
+
 TEST_CASE("expressions of a Sinumerik are in round brackets, with its functions") {
   CHECK(sinumerik("R1 + 5") == 7);
   CHECK(sinumerik("(R1 - 1) * _DEPTH") == -3);
@@ -114,9 +145,11 @@ TEST_CASE("comparisons and logic have the values 1 or 0, with the precedence of 
 
 TEST_CASE(
     "expressions that controls evaluate differently, or that the text does not determine, have no value") {
-  for (const char* const text : {"#3", "[1 / 0]", "FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]",
-                                 "SQRT[-1]", "ASIN[2]", "#<other>", "FOO[1]", "[1 + ", "#[1.5]", "[1 2]2"})
+  for (const char* const text :
+       {"#3", "[1 / 0]", "SQRT[-1]", "ASIN[2]", "#<other>", "FOO[1]", "[1 + ", "#[1.5]", "[1 2]2"})
     CHECK_FALSE(bracketed(text).has_value());
+  for (const char* const text : {"FIX[-2.8]", "ROUND[-0.5]", "ATAN[-1]/[1]", "[-7 MOD 4]"})
+    CHECK_FALSE(bracketed(text, ExpressionSyntax::macro).has_value());
   for (const char* const text : {"R2", "R1 +", "MINVAL(1,2)", "$P_EP[X]", "(1"})
     CHECK_FALSE(sinumerik(text).has_value());
 }
