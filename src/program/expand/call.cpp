@@ -164,4 +164,14 @@ bool may_call(const Block& block, const Dialect& dialect) {
   });
 }
 
+std::string why_never_replaced(const Block& block, const Dialect& dialect) {
+  for (const Word& word : block.words) {
+    if (word.letter != 'G' || !word.literal || word.value != 65) continue;
+    const GCode* code = find_g_code(650, dialect);
+    if (code != nullptr && code->action == Action::call) return "G65 passes arguments to a macro";
+  }
+  const bool calls_other = find_m(block, 198) != nullptr && action_of_m(198, dialect) == MAction::call;
+  return calls_other ? "M198 calls a program outside of this file" : "";
+}
+
 }  // namespace counterflex

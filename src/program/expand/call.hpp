@@ -24,4 +24,8 @@ std::optional<SubprogramCall> call_in(std::string_view text, const Dialect& dial
 /// Whether the block may run a subprogram in another way: macros, other files, codes that are expressions.
 bool may_call(const Block& block, const Dialect& dialect);
 
+/// Why a call of another kind is never replaced: macros with arguments, programs of other memories. Empty for
+/// other blocks.
+std::string why_never_replaced(const Block& block, const Dialect& dialect);
+
 }  // namespace counterflex

@@ -228,6 +228,8 @@ class Expander {
     if (!line.why_not.empty()) return line.why_not;
     const int from = origin(block, frame);
     if (!line.text.empty()) lines_.append(line.text, block.line, from);
+    if (const std::string why = why_never_replaced(block, dialect_); !why.empty())
+      expansion_.unexpanded_calls.push_back({lines_.count, why});
     assign_block(block, frame);
     return {};
   }

@@ -159,6 +159,9 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
            {"fanuc", "M30 M98 P2", plain, "its block has the word M"},
            {"fanuc", "M98 P3", plain,
             "the subprogram is not in this file: append it behind the end of the program"},
+           {"fanuc", "G65 P2 X5. Y3.", plain, "G65 passes arguments to a macro"},
+           {"haas", "G65 P2", plain, "G65 passes arguments to a macro"},
+           {"fanuc", "M198 P2", plain, "M198 calls a program outside of this file"},
            {"fanuc", "M98 P2", plain + plain, "this file defines the subprogram more than once"},
            {"fanuc", "M98 P2", "O2\nX1.\nM30\n", "its body does not end with M99 or endsub"},
            {"fanuc", "M98 P2", "O2\nX1.\nO3\nM99\n", "its body does not end with M99 or endsub"},
@@ -207,7 +210,7 @@ TEST_CASE("a call that is not all plain numbers is not expanded, with the reason
             "the subprogram is not in this file: append it behind the end of the program"}}) {
     CAPTURE(l.call);
     CAPTURE(l.definition);
-    const std::string text = (l.dialect == "fanuc" ? fanuc_go : go) + l.call + "\nM30\n" + l.definition;
+    const std::string text = (l.dialect == "linuxcnc" ? go : fanuc_go) + l.call + "\nM30\n" + l.definition;
     if (l.why.empty()) {
       CHECK(diagnostic_of([&] { expanded(text, l.dialect); }) != "none");
       continue;
