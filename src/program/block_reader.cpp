@@ -63,6 +63,7 @@ void BlockReader::begin_window(std::size_t read, std::optional<Move> first) {
   program_.cutter_diameters.clear();
   program_.left_alone.clear();
   program_.counts.clear();
+  program_.expansion.unused.clear();
   program_.text.clear();
   resume_behind(read);
 }

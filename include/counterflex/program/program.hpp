@@ -75,7 +75,9 @@ struct Expansion {
   int first_executed = 0;    ///< line of the file
   bool in_order = false;     ///< the text has the blocks of the main program in the order in which they run
   std::vector<UnexpandedCall> unexpanded_calls;  ///< sorted by line
-  std::vector<Span> unused;  ///< definitions in the text that are no longer called: their blocks do not run
+  /// Definitions in the text whose blocks do not run at their place: they are no longer called, or are
+  /// between moves of a LinuxCNC program. Of a window: those in its text.
+  std::vector<Span> unused;
 };
 
 /// From a move on, the diameter by which the control offsets contours.

@@ -73,6 +73,13 @@ bool is_unused(const Expansion& expansion, std::size_t at) {
   return behind != unused.begin() && at < std::prev(behind)->end;
 }
 
+void add_unused(Span definition, Expansion& expansion) {
+  auto& unused = expansion.unused;
+  const auto behind = std::upper_bound(unused.begin(), unused.end(), definition.begin,
+                                       [](std::size_t place, Span span) { return place < span.begin; });
+  unused.insert(behind, definition);
+}
+
 std::string_view why_not_expanded(const Expansion& expansion, int text_line) {
   const auto& calls = expansion.unexpanded_calls;
   const auto call = std::lower_bound(calls.begin(), calls.end(), text_line,

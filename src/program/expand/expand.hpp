@@ -43,8 +43,11 @@ std::string limit_exceeded(const ExpandedSize& expanded, const ExpandedSize& ori
 /// Sets the line of `block` to the line of the file from which the line of the text comes.
 void place_in_file(const Expansion& expansion, Block& block);
 
-/// Whether the line at byte `at` of the text belongs to a definition that is no longer called.
+/// Whether the line at byte `at` of the text belongs to a definition whose blocks do not run at their place.
 bool is_unused(const Expansion& expansion, std::size_t at);
+
+/// Adds a definition whose blocks do not run at their place.
+void add_unused(Span definition, Expansion& expansion);
 
 /// Why the call in line `text_line` of the text was not replaced; empty if expansion was off.
 std::string_view why_not_expanded(const Expansion& expansion, int text_line);

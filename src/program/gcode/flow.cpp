@@ -6,6 +6,7 @@
 #include <array>
 
 #include "program/expand/definitions.hpp"
+#include "program/expand/expand.hpp"
 #include "program/gcode/moves/contour.hpp"
 #include "program/gcode/moves/other_moves.hpp"
 #include "program/gcode/moves/read_move.hpp"
@@ -94,11 +95,8 @@ void open_definition(const Block& block, Reading& r, const std::string& name) {
     refuse(r.program.file, block, block.flow_keyword.begin,
            "'/' may skip the begin of this subprogram: then its body runs here; remove the '/'");
   if (r.body.open.empty())
-    r.body.before_definition = {r.program.moves.size(),
-                                r.program.operations.size(),
-                                r.run_begin,
-                                r.moved_by_machine,
-                                r.operation,
+    r.body.before_definition = {block.span.begin, r.program.moves.size(), r.program.operations.size(),
+                                r.run_begin,      r.moved_by_machine,     r.operation,
                                 r.variables};
   open_subprogram(r, name);
 }
@@ -106,7 +104,7 @@ void open_definition(const Block& block, Reading& r, const std::string& name) {
 /// LinuxCNC reads a definition without executing it: its end restores everything. Behind a move of the
 /// program, blocks of a definition are not moves. Before the first one they stay in the list: a text that
 /// only defines subprograms is called from other files.
-void close_definition(Reading& r) {
+void close_definition(const Block& block, Reading& r) {
   BeforeDefinition& before = r.body.before_definition;
   if (r.program.before || before.moves > r.body.defined_moves) {
     r.program.moves.resize(before.moves);
@@ -114,6 +112,7 @@ void close_definition(Reading& r) {
     r.program.operation_titles.resize(before.operations);
     r.operation = std::move(before.operation);
     r.run_begin = before.run_begin;
+    add_unused({before.begin, block.span.end}, r.program.expansion);
   } else {
     r.body.defined_moves = r.program.moves.size();
   }
@@ -258,7 +257,7 @@ void read_o_word(const Block& block, Reading& r, const FlowLine& line) {
   const std::string opened_do = line.name + " DO";
   if (line.is("CALL")) return call(block, r, called_program(line.name));
   if (line.is("SUB")) return open_definition(block, r, line.name);
-  if (ends_definition(r, line)) return close_definition(r);
+  if (ends_definition(r, line)) return close_definition(block, r);
   if (closes(line)) {
     if (r.body.open.empty()) refuse_end(block, r, line);
     return close_body(r);

@@ -22,6 +22,7 @@ struct OpenStructure {
 
 /// What a control has at the begin of a definition that it does not execute, besides its modal state.
 struct BeforeDefinition {
+  std::size_t begin = 0;                  ///< of its first line in the text
   std::size_t moves = 0, operations = 0;  ///< numbers of them in the program
   std::size_t run_begin = 0;              ///< as in Reading, as the following
   std::array<bool, 3> moved_by_machine{};

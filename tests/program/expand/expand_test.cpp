@@ -334,9 +334,12 @@ TEST_CASE("each copy of a call is rewritten separately") {
 
 TEST_CASE(
     "the motion word is repeated behind a definition that has one, because the definition does not run") {
-  const Program program = expanded(go + "G2 X10 I5\no1 sub\nG2 X1 I2\no1 endsub\nX0 I-5\nM2\n");
-  REQUIRE(program.moves.size() == 3);
-  const MoveEdit chord{.move = 1, .end_mm = {10, 0.5, 5}};
-  const std::string text = rewrite(program, {chord}, {}).text;
-  CHECK(text.find("o1 endsub\nG2 X0 I-5\n") != std::string::npos);
+  for (const char* const rest : {"X0 I-5\nM2\n", "X0 I-5\no2 call\nM2\n"}) {
+    CAPTURE(rest);
+    const Program program = expanded(go + "G2 X10 I5\no1 sub\nG2 X1 I2\no1 endsub\n" + rest);
+    REQUIRE(program.moves.size() >= 3);
+    const MoveEdit chord{.move = 1, .end_mm = {10, 0.5, 5}};
+    const std::string text = rewrite(program, {chord}, {}).text;
+    CHECK(text.find("o1 endsub\nG2 X0 I-5\n") != std::string::npos);
+  }
 }
