@@ -11,6 +11,7 @@
 #include "counterflex/compensation/windows.hpp"
 #include "counterflex/geometry/types.hpp"
 #include "counterflex/program/read_program.hpp"
+#include "counterflex/toolpath/reach.hpp"
 
 namespace counterflex {
 namespace {
@@ -96,8 +97,10 @@ std::optional<Failure> axis_failure(const Job& job, std::size_t m, const Matched
   constexpr double unshifted_mm = 1e-9;
   const Move &original = matched.original, &found = matched.last();
   forget_lost_axes(job, m, carried);
-  const bool judged = all_known(original.known_end) &&
-                      (original.handling == Handling::own || original.handling == Handling::group);
+  // A hole is judged at its bottom, also where the height behind it is not known.
+  const bool place_is_known = all_known(original.known_end) || !fractions_of_holes(original).empty();
+  const bool judged =
+      place_is_known && (original.handling == Handling::own || original.handling == Handling::group);
   for (std::size_t axis = 0; axis < 3; ++axis) {
     if (!has_absolute_word(matched, axis)) continue;
     const bool in_both = original.words[axis] && found.words[axis];

@@ -129,3 +129,19 @@ TEST_CASE("linuxcnc: R at the height of the tool stays there, so that G98 and G9
       CHECK(moves.back().known_start[2]);
     }
 }
+
+// Without G98 and G99 the height behind the first hole is not known.
+TEST_CASE("linuxcnc: a hole behind an unknown height keeps words that need no correction") {
+  const Shop shop({.machine = rigid_gantry("0, 0, 0.1", 1e-3),
+                   .text = "G21 G90 G17\nG0 X10. Y100. Z20.\nG81 X10. Y100. Z-10. R2. F100\n"
+                           "G81 X20. Y0. Z-10. R2.\nX30. Y100.\nG80\nM2\n"});
+  const std::string corrected = compensated(shop).text;
+  const auto lines = lines_of(corrected);
+  CHECK(lines[2] == "G81 X10.1 Y100. Z-10.1 R1.9 F100");
+  CHECK(lines[3] == "G81 X20. Y0. Z-10.1 R1.9");
+  CHECK(lines[4] == "X30.1 Y100.");
+  CHECK(refusal_of(shop, corrected) == "");
+  std::string without = corrected;
+  without.replace(without.find("X30.1"), 5, "X30.");
+  CHECK(refusal_of(shop, without).find("misses the path by 0.1") != std::string::npos);
+}
