@@ -266,7 +266,11 @@ struct Move {
   /// Axes that the block moves to a position that no edit can shift (an expression, a subprogram): the
   /// correction at that place must be zero.
   std::array<bool, 3> fixed{};
-  bool relative = false;             ///< G91: words are differences from the start
+  bool relative : 1 = false;  ///< G91: words are differences from the start
+  /// Of a block with `fixed` axes: where its words put the tool, at `end_mm`, it calls a cycle, a macro or a
+  /// program that is not followed. This place is known on all axes.
+  bool calls_at_end : 1 = false;
+  std::uint8_t : 0;
   std::uint8_t incremental : 3 = 0;  ///< bit of an axis: only its word is a difference from the start
   bool polar : 1 = false;       ///< LP, CP of Klartext: two coordinates come from one pair of polar words
   bool takes_no_z : 1 = false;  ///< no Z word may be inserted: beside a corner, in holes of a Klartext cycle

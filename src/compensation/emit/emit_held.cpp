@@ -45,20 +45,25 @@ std::string Emitter::why_fixed(const Move& move) const {
   return why;
 }
 
-// Axes that the block sets to a place of its own take no shift: there must be none. The others keep theirs.
+// Axes that the block sets to a place of its own take no shift: the text must hold none, and where something
+// is called at a known place none may be needed. The other axes are shifted.
 void Emitter::emit_fixed(std::size_t m) {
   const Move& move = job_.program.moves[m];
+  const Vector3 in_text = held_shift_mm(move);
+  const std::optional<Vector3> at_call = move.calls_at_end ? hold_position(move) : std::nullopt;
+  if (out_.failure) return;
   leave_pending_alone();
-  const Vector3 shift = held_shift_mm(move);
+  const Vector3 shift = held_shift_mm(move), needed = at_call ? shift_mm(move, *at_call) : shift;
   bool edits = false;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const double along = shift[axis];
-    if (move.fixed[axis] && !rounds_to_nothing(move, axis, along))
+    const double kept = rounds_to_nothing(move, axis, needed[axis]) ? in_text[axis] : needed[axis];
+    if (move.fixed[axis] && !rounds_to_nothing(move, axis, kept))
       return refuse(
           move,
           fmt::format(
               "{}; {} stays where it is, and the correction of {:.4f} mm that holds there cannot be kept",
-              why_fixed(move), "XYZ"[axis], along));
+              why_fixed(move), "XYZ"[axis], kept));
     if (move.fixed[axis]) state_.holds[axis] = false;
     edits = edits || (move.words[axis] && along != 0);
   }

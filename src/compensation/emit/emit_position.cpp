@@ -79,6 +79,17 @@ void Emitter::emit_first_known(std::size_t m) {
   put(shifted(m, shift_mm(move, state_.correction)), in_part ? Extent::in_part : Extent::whole);
 }
 
+// The correction (M, m) where the words of the block put the tool, before what it calls; the emission fails
+// without one. What words can be written for it holds there.
+std::optional<Vector3> Emitter::hold_position(const Move& move) {
+  const std::optional<PositionCorrection> solved = solve_position(wanted_of(job_, move), move);
+  if (!solved) return std::nullopt;
+  leave_far_pending_alone(move);
+  hold(correction_that_can_be_written(move, solved->shift));
+  give_to_pending();
+  return solved->shift;
+}
+
 // R of a hole with its shift (program coordinates, mm). Where it is not below the tool in the original, so it
 // is in the text: the last hole may have left the tool higher than its own shift does.
 double Emitter::retract_mm(const Move& move, double shift) {

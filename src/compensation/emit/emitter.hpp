@@ -104,6 +104,7 @@ class Emitter {
 
   // emit_position.cpp
   void emit_first_known(std::size_t m);
+  std::optional<Vector3> hold_position(const Move& move);
   void emit_hole(std::size_t m);
   double retract_mm(const Move& move, double shift);
   struct PositionCorrection {

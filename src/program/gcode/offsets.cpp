@@ -57,7 +57,7 @@ std::optional<std::string> offset_name(const Block& block, const Reading& r, con
 
 void add_displacement(const Block& block, Reading& r, std::uint16_t bit) {
   r.state.displaced |= bit;
-  r.state.known.fill(false);
+  if (bit != modal_macro) r.state.known.fill(false);
   end_contour(r);
   note_uncorrected(block, r, why_not_followed(r));
 }
@@ -307,6 +307,7 @@ void apply_displacements(const Block& block, Reading& r) {
       continue;
     }
     if (g.code->action == Action::displace) note_begin(r, *g.code), add_displacement(block, r, g.code->bit);
+    if (g.code->tenths == 661) r.state.known.fill(false);  // its own block calls the macro, too
     if (g.code->bit == unknown) r.state.displaced |= unknown, end_contour(r);
   }
   if (r.sorted.has(Action::shift) && !followed) {

@@ -126,9 +126,11 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
     move.known_end = r.state.known;
     return call_relative_cycle(block, r, move);
   }
+  const bool place_is_known = all_known(r.state.known);
   r.state.known[2] = false;
   if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move))
     return note_hole(block, r, move);
+  move.calls_at_end = place_is_known && !move.block_delete;
   r.state.surface.reset();
   move.fixed[2] = true;
   move.words[2].reset();

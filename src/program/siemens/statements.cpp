@@ -36,7 +36,7 @@ bool is_displaced(const Reading& r, std::uint16_t bit) {
 void displace_by_statement(const Block& block, Reading& r, std::uint16_t bit) {
   if (empty(block.block_delete) && !is_displaced(r, bit)) r.body.begun |= bit;
   r.state.displaced |= bit;
-  r.state.known.fill(false);
+  if (bit != modal_macro) r.state.known.fill(false);
   end_contour(r);
   note_uncorrected(block, r, why_not_followed(r));
 }

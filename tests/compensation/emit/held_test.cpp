@@ -91,6 +91,54 @@ TEST_CASE("a subprogram that is not called does not change what is corrected") {
   CHECK(lines_of(result.text)[5] == "G1 X9.5 F200");
 }
 
+TEST_CASE("a cycle or macro called at a known place refuses its correction, whatever the blocks before it") {
+  const std::string klartext =
+      "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\nTOOL CALL 2 Z S1000\n";
+  const std::string thread =
+      "CYCL DEF 262 THREAD MILLING Q335=10 Q239=1.5 Q201=-8 Q355=0 Q253=750 Q351=1 Q200=2 Q203=+0 Q204=50\n";
+  const std::string pattern = "CYCL DEF 231 RULED SURFACE Q225=0\n",
+                    end = "L Z+100 R0 FMAX M2\nEND PGM A MM\n";
+  const std::string fanuc = "O1\nG21 G90 G17 G54\nT1 M6\nG0 X0. Y0. Z50.\nT2 M6\n";
+  const std::string siemens = "G71 G90 G17 G54\nG0 X0 Y0 Z50\nT2 M6\n";
+  for (const std::string& text :
+       {klartext + "L Z+50 R0 FMAX\n" + thread + "L X+10 Y+10 R0 FMAX M99\n" + end,
+        klartext + "L X+0 Y+0 Z+50 R0 FMAX\n" + thread + "L X+10 Y+10 R0 FMAX M99\n" + end,
+        klartext + "L X+10 Y+10 R0 FMAX\n" + thread + "L Z+50 R0 FMAX M99\n" + end,
+        klartext + thread + "L X+10 Y+10 Z+50 R0 FMAX M99\n" + end,
+        klartext + "L Z+50 R0 FMAX\n" + pattern + "L X+10 Y+10 R0 FMAX M99\n" + end,
+        fanuc + "G0 Z50.\nG66 P9000 Z-10.\nX10. Y10.\nG67\nM30\n",
+        fanuc + "G0 Z50.\nX10. Y10. M98 P900\nM30\n", fanuc + "X10. Y10. Z50. M98 P900\nM30\n",
+        fanuc + "G66 P9000 Z-10.\nX10. Y10. Z50.\nG67\nM30\n",
+        siemens + "G0 Z50\nMCALL FOO(50,0,2,-10)\nX10 Y10\nMCALL\nM30\n"}) {
+    CAPTURE(text);
+    CHECK(compensated(Shop({.machine = perfect_gantry(), .text = text})).text == text);
+    const auto failure = failure_on(displaced_gantry(), text);
+    REQUIRE(failure);
+    CHECK(failure->kind == ErrorKind::program_text);
+    const std::string line = lines_of(text)[static_cast<std::size_t>(failure->line) - 1];
+    CHECK((line.ends_with("M99") || line.starts_with("X10")));
+  }
+}
+
+TEST_CASE("where words put a cycle that is not corrected, its own correction counts") {
+  // Inclined about Y by 1 mm in 1000 mm: nothing is left at X0, 0.1 mm at X100.
+  Machine machine = perfect_gantry();
+  std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, -1e-3, 0));
+  const auto failure =
+      failure_on(machine, "O1\nG21 G90 G17 G54\nG0 X0. Y0. Z0.\nG66 P9000 Z-10.\nX100. Y10.\nG67\nM30\n");
+  REQUIRE(failure);
+  CHECK(failure->line == 5);
+  CHECK(failure->what.find("0.1000 mm") != std::string::npos);
+}
+
+TEST_CASE("a cycle that is not corrected passes where the place of its call is not known") {
+  for (const char* text : {"O1\nG21 G90 G17 G54\nG28\nG0 X0. Y0.\nG66 P9000 Z-10.\nX10. Y10.\nG67\nM30\n",
+                           "O1\nG21 G90 G17 G54\nG28\nG66 P9000 Z-10.\nX10. Y10. Z#1\nG67\nM30\n"}) {
+    CAPTURE(text);
+    CHECK(!failure_on(displaced_gantry(), text));
+  }
+}
+
 TEST_CASE("after a machine position an axis holds nothing that an expression could break") {
   const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG53 G0 Z0.\nZ#1\nM30\n";
   CHECK(!failure_on(displaced_gantry(), text));

@@ -121,9 +121,22 @@ std::uint16_t modes_of(const Dialect& dialect) {
   return static_cast<std::uint16_t>(modes);
 }
 
+/// Whether the words of the block move the tool to a known place before M98 calls.
+bool moves_before_call(const Block& block, Reading& r, Move& move) {
+  const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
+  const bool follows = r.sorted.has(MAction::call) && line && !move.block_delete && has_axis_word(r.sorted) &&
+                       !may_turn_tool(r) && why_not_followed(r).empty();
+  for (const char letter : letters_of_axes)
+    if (const Word* word = r.sorted.word(letter); follows && word != nullptr && !word->literal) return false;
+  if (!follows) return false;
+  place_words(block, r, move);
+  return !any_axis(move.fixed) && all_known(r.state.known);
+}
+
 /// The block may move any axis and set modal states, but not coordinates.
 void leave_to_control(const Block& block, Reading& r, std::string_view why) {
   Move& move = start_move(block, r, Motion::rapid);
+  move.calls_at_end = moves_before_call(block, r, move);
   for (std::size_t axis = 0; axis < 3; ++axis) fix_axis(r, move, axis);
   move.relative = false;
   note_uncorrected(block, r, why);

@@ -143,13 +143,16 @@ void place_unknown(Reading& r, Move& move, std::size_t axis) {
 }
 
 /// The position of a hole in the plane is shifted with the contours. Its heights belong to the macro. The
-/// height at which the macro leaves the tool is unknown.
-void place_macro_word(Reading& r, Move& move, std::size_t axis, const Word& word) {
+/// height at which the macro leaves the tool is unknown. Returns whether the macro is called at the position
+/// of the word.
+bool place_macro_word(Reading& r, Move& move, std::size_t axis, const Word& word) {
   place_unknown(r, move, axis);
-  if (!word.literal || axis == 2 || r.relative()) return;
+  if (!word.literal || r.relative()) return false;
+  coordinate(r.state.position_mm, axis) = length_mm(r, word);
+  if (axis == 2) return true;
   move.fixed[axis] = false;
   move.words[axis] = AxisWord{word.number, word.decimals};
-  coordinate(r.state.position_mm, axis) = length_mm(r, word);
+  return true;
 }
 
 bool is_difference(const Reading& r, std::size_t axis) {
@@ -388,12 +391,16 @@ void place_words(const Block& block, Reading& r, Move& move) {
   if (may_turn_tool(r)) place_angles(block, r, move, why.empty());
   const bool macro = only_calls_macro(r);
   bool all_plain = true, frame = false;
+  move.calls_at_end = macro && !move.block_delete;
   for (std::size_t axis = 0; axis < 3; ++axis) {
     const Word* word = r.sorted.word(letters_of_axes[axis]);
-    if (word == nullptr) continue;
+    if (word == nullptr) {
+      move.calls_at_end = move.calls_at_end && r.state.known[axis];
+      continue;
+    }
     frame = frame || may_travel_frame(r, axis);
     if (macro)
-      place_macro_word(r, move, axis, *word);
+      move.calls_at_end = place_macro_word(r, move, axis, *word) && move.calls_at_end;
     else
       place_word(r, move, axis, *word, why.empty());
     all_plain = all_plain && word->literal;
@@ -420,6 +427,7 @@ void place_words(const Block& block, Reading& r, Move& move) {
 }
 
 void finish_move(Reading& r, Move& move) {
+  if ((r.state.displaced & modal_macro) != 0) r.state.known.fill(false);
   if (has_known_orientation(r.state)) move.known_end = r.state.known;
   move.end_mm = r.state.position_mm;
   if (r.state.feed_mode == FeedUnit::inverse_time && move.motion == Motion::feed) set_inverse_time(r, move);
