@@ -145,10 +145,15 @@ void Emitter::leave_pending_alone() {
 }
 
 void Emitter::list_held_words(const Move& move, const Vector3& miss) {
-  const char* block = move.makes_hole ? "a hole keeps the height of its cycle's surface and"
-                      : job_.program.dialect == "heidenhain"
-                          ? "a block before or behind RND or CHF"
-                          : "a block with G43, G44 or G49, or beside a corner,";
+  // The Z of a hole is a word of its cycle.
+  const bool has_own_word = move.words[0] || move.words[1] || (!move.makes_hole && move.words[2]);
+  const bool has_own_mode = job_.program.dialect == "siemens" && has_own_word && !move.may_insert_words &&
+                            !move.mills_at_end && !move.corners;
+  const char* block =
+      has_own_mode      ? "a block with IC under G90 or with AC under G91 (write G91 or G90 instead)"
+      : move.makes_hole ? "a hole keeps the height of its cycle's surface and"
+      : job_.program.dialect == "heidenhain" ? "a block before or behind RND or CHF"
+                                             : "a block with G43, G44 or G49, or beside a corner,";
   list(move, fmt::format("{} takes no {}: its end stays off by {:.4f} mm", block,
                          move.may_insert_words ? "word of Z" : "further axis words", miss.norm() / mm));
 }

@@ -91,7 +91,7 @@ TEST_CASE("a subprogram that is not called does not change what is corrected") {
   CHECK(lines_of(result.text)[5] == "G1 X9.5 F200");
 }
 
-TEST_CASE("a cycle or macro called at a known place refuses its correction, whatever the blocks before it") {
+TEST_CASE("a cycle or macro called at a known place refuses its correction behind any block") {
   const std::string klartext =
       "BEGIN PGM A MM\nTOOL CALL 1 Z S1000\nL X+0 Y+0 Z+50 R0 FMAX M3\nTOOL CALL 2 Z S1000\n";
   const std::string thread =
@@ -131,9 +131,36 @@ TEST_CASE("where words put a cycle that is not corrected, its own correction cou
   CHECK(failure->what.find("0.1000 mm") != std::string::npos);
 }
 
+TEST_CASE("a Z word in a block that calls a macro is named as the cause of the refusal") {
+  const std::string begin = "G71 G90 G17 G54 G94\nG0 X10 Y10 Z60\nMCALL CYCLE82(50,0,2,-10)\nX20 Y20\n";
+  const auto failure = failure_on(displaced_gantry(), begin + "X50 Y90 Z55\nMCALL\nM30\n");
+  REQUIRE(failure);
+  CHECK(failure->line == 5);
+  CHECK(
+      failure->what ==
+      "a block that calls a macro keeps its Z word: program this height in a block of its own "
+      "before MCALL; Z stays where it is, and the correction of -0.1250 mm that holds there cannot be kept");
+}
+
+TEST_CASE("siemens: a block that takes no words beside IC or AC is listed with this reason") {
+  for (const std::string block : {"Y=IC(60)", "G91 X10\nY=AC(60)"}) {
+    CAPTURE(block);
+    const Compensation result = compensated(
+        Shop({.machine = rigid_gantry("0, 0, 0.1", 1e-3),
+              .text = "G71 G90 G17 G54 G94\nG0 X10 Y10 Z60\nMCALL CYCLE82(50,0,2,-10)\nX20 Y20\n" + block +
+                      "\nMCALL\nM30\n"}));
+    CAPTURE(result.text);
+    REQUIRE(result.left_alone.size() == 1);
+    CHECK(
+        result.left_alone[0].why.starts_with("a block with IC under G90 or with AC under G91 (write G91 or "
+                                             "G90 instead) takes no further axis words"));
+  }
+}
+
 TEST_CASE("a cycle that is not corrected passes where the place of its call is not known") {
   for (const char* text : {"O1\nG21 G90 G17 G54\nG28\nG0 X0. Y0.\nG66 P9000 Z-10.\nX10. Y10.\nG67\nM30\n",
-                           "O1\nG21 G90 G17 G54\nG28\nG66 P9000 Z-10.\nX10. Y10. Z#1\nG67\nM30\n"}) {
+                           "O1\nG21 G90 G17 G54\nG28\nG66 P9000 Z-10.\nX10. Y10. Z#1\nG67\nM30\n",
+                           "O1\nG21 G90 G17 G54\nG0 X0. Y0. Z50.\nG28 X0. Y0. Z0. M98 P900\nM30\n"}) {
     CAPTURE(text);
     CHECK(!failure_on(displaced_gantry(), text));
   }

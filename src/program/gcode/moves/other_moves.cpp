@@ -123,7 +123,10 @@ std::uint16_t modes_of(const Dialect& dialect) {
 
 /// Whether the words of the block move the tool to a known place before M98 calls.
 bool moves_before_call(const Block& block, Reading& r, Move& move) {
-  const bool line = r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed;
+  const bool line = (r.state.motion == MotionMode::rapid || r.state.motion == MotionMode::feed) &&
+                    std::ranges::all_of(r.sorted.g, [](const FoundG& g) {
+                      return g.code->group == CodeGroup::motion || g.code->group == CodeGroup::distance;
+                    });
   const bool follows = r.sorted.has(MAction::call) && line && !move.block_delete && has_axis_word(r.sorted) &&
                        !may_turn_tool(r) && why_not_followed(r).empty();
   for (const char letter : letters_of_axes)

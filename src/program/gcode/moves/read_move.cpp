@@ -407,6 +407,11 @@ void place_words(const Block& block, Reading& r, Move& move) {
   }
   if (macro) place_unknown(r, move, 2), move.fixed[2] = true;
   if ((r.state.displaced & modal_macro) != 0) move.makes_hole = true;
+  if (macro && r.sorted.word('Z') != nullptr)
+    return note_uncorrected(block, r,
+                            fmt::format("a block that calls a macro keeps its Z word: program this "
+                                        "height in a block of its own before {}",
+                                        r.dialect.sinumerik_words ? "MCALL" : "G66"));
   if (!why.empty()) return note_uncorrected(block, r, why);
   if (!all_plain)
     return note_uncorrected(
