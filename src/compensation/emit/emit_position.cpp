@@ -91,7 +91,8 @@ std::optional<Vector3> Emitter::hold_position(const Move& move) {
 }
 
 // R of a hole with its shift (program coordinates, mm). Where it is not below the tool in the original, so it
-// is in the text: the last hole may have left the tool higher than its own shift does.
+// is in the text: the last hole may have left the tool higher than its own shift does. The same holds for the
+// height where the series began.
 double Emitter::retract_mm(const Move& move, double shift) {
   const CycleMove& cycle = *move.cycle;
   const double planned = cycle.retract_mm + shift;
@@ -102,7 +103,11 @@ double Emitter::retract_mm(const Move& move, double shift) {
                            ? options.decimals
                            : std::max(decimals_of(move, options).inserted, cycle.retract_word->decimals);
   const double digit = mm_per(move.unit) / std::pow(10.0, decimals), rounding = 1e-6;
-  const double least = std::ceil(*before(move)[2] / digit - rounding) * digit;
+  const TextPosition held = before(move);
+  double height_mm = *held[2];
+  if (leaves_at_high_retract(move) && !cycle.begins_series && held.cycle_initial_mm)
+    height_mm = std::max(height_mm, *held.cycle_initial_mm);
+  const double least = std::ceil(height_mm / digit - rounding) * digit;
   return std::round(planned / digit) * digit < least ? least : planned;
 }
 

@@ -314,9 +314,10 @@ class KindComparison {
                both = added || (wanted.retract_word && wanted.bottom_word && cycle.bottom_word);
     const bool chooses = chooses_height_by_retract(job_.program, original_) && found.known_start[2];
     if (!failure_ && chooses) compare_height_of_way(found);
-    const double above_tool = cycle.retract_mm - found.start_mm.z();
+    double height = found.start_mm.z();
+    if (leaves_at_high_retract(original_)) height = std::max(height, cycle.initial_mm);
     const bool raised = found.known_start[2] && keeps_retract_above_tool(job_.program, original_) &&
-                        above_tool <= roundings * rounding_mm_;
+                        cycle.retract_mm - height <= roundings * rounding_mm_;
     if (!failure_ && both && !raised && std::abs(retract - bottom) > tolerance_mm_ + roundings * rounding_mm_)
       fail(found,
            fmt::format("the retract plane R is shifted by {:.4f} mm, the bottom of the hole by {:.4f} mm",

@@ -76,8 +76,11 @@ bool keeps_retract_above_tool(const Program& program, const Move& hole) {
   const CycleMove& cycle = *hole.cycle;
   if (program.dialect != "linuxcnc" || !hole.known_start[2] || cycle.retract_mm < hole.start_mm.z())
     return false;
-  const bool leaves_at_retract = !cycle.returns_to_retract && cycle.retract_mm >= cycle.initial_mm;
-  return leaves_at_retract || chooses_height_by_retract(program, hole);
+  return leaves_at_high_retract(hole) || chooses_height_by_retract(program, hole);
+}
+
+bool leaves_at_high_retract(const Move& hole) {
+  return !hole.cycle->returns_to_retract && hole.cycle->retract_mm >= hole.cycle->initial_mm;
 }
 
 namespace {

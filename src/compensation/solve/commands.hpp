@@ -47,6 +47,9 @@ bool chooses_height_by_retract(const Program& program, const Move& hole);
 /// the tool at R under G98 as under G99. The program may have left the choice of these to the control.
 bool keeps_retract_above_tool(const Program& program, const Move& hole);
 
+/// Whether R is not below the height where the series began: under G98, too, the tool is left at R.
+bool leaves_at_high_retract(const Move& hole);
+
 /// The piece of the hole of a cycle at fraction `u` of its move (`fractions_of_holes`). `found` commands it:
 /// the same move, or the one that was written for it.
 Piece piece_of_hole(const Job& job, const Move& original, const Move& found, double u);

@@ -145,3 +145,23 @@ TEST_CASE("linuxcnc: a hole behind an unknown height keeps words that need no co
   without.replace(without.find("X30.1"), 5, "X30.");
   CHECK(refusal_of(shop, without).find("misses the path by 0.1") != std::string::npos);
 }
+
+// G98 leaves the tool at R, which is the height where the series began, though the tool comes from a lower R.
+TEST_CASE("linuxcnc: R at the height of the series stays there, also behind a hole under G99") {
+  for (const double tilt : {-4e-4, 4e-4})
+    for (const std::string at_start : {"G98 X90. R30.\n", "G98 X90. Z-6. R30.\n", "G98 X5. Z-6. R30.\n"}) {
+      CAPTURE(tilt);
+      CAPTURE(at_start);
+      Machine machine = perfect_gantry();
+      std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, tilt, 0));
+      const Shop shop({.machine = machine,
+                       .text = "G21 G90 G17\nG0 X50. Y10. Z30.\nG99 G81 X20. Z-5. R2. F100\n" + at_start +
+                               "G99 X20.\nX50. R2.\nG80\nG0 X0.\nM2\n"});
+      const std::string corrected = compensated(shop).text;
+      CAPTURE(corrected);
+      CHECK(refusal_of(shop, corrected) == "");
+      const std::vector<Move> moves = moves_in(corrected);
+      CHECK(moves[2].cycle->retract_mm >= moves[2].cycle->initial_mm);
+      CHECK(moves[2].cycle->retract_mm < moves[2].cycle->initial_mm + 0.04);
+    }
+}
