@@ -141,7 +141,8 @@ std::optional<KrlLoop> only_loop(std::string_view program) {
   try {
     auto loop = first_loop(program);
     if (!loop || first_loop(program.substr(loop->end))) return std::nullopt;
-    return first_loop(program.substr(0, loop->end)) ? loop : std::nullopt;
+    const auto alone = first_loop(program.substr(0, loop->end));
+    return alone && alone->acts == loop->acts ? loop : std::nullopt;
   } catch (const InputError&) {
     return std::nullopt;  // its place is found when the program is read
   }

@@ -116,7 +116,7 @@ bool is_harmless(std::string_view text, const RobotLine& line) {
 void refuse_change(std::string_view text, const std::string& file, const RobotLine& line, const Body& body) {
   const auto assignment = assignment_at(text, line.code.begin, line.code.end);
   const auto target = assignment ? indexed(part(text, assignment->variable)) : std::nullopt;
-  if (!target || target->index != body.counter) return;
+  if (!target || target->index != body.counter || target->name != body.loop.array) return;
   constexpr auto members = std::to_array<std::string_view>({"", "X", "Y", "Z", "A", "B", "C"});
   const std::string_view member = std::string_view(target->member).substr(target->member.rfind('.') + 1);
   if (!is_among(member, members)) return;
@@ -126,6 +126,14 @@ void refuse_change(std::string_view text, const std::string& file, const RobotLi
                      part(text, assignment->variable)));
 }
 
+/// Whether the line declares variables; "GLOBAL INTERRUPT DECL" reads some.
+bool declares_variables(std::string_view text, const RobotLine& line) {
+  const Span head = name_at(text, line.code.begin, line.code.end);
+  const Span next = name_at(text, behind_blanks(text, head.end, line.code.end), line.code.end);
+  const bool is_global = krl_word(part(text, head)) == "GLOBAL" && krl_word(part(text, next)) != "INTERRUPT";
+  return is_global || begins_declaration(krl_word(part(text, head)));
+}
+
 /// How often the text uses the array, apart from assignments of elements with a number as index, which data
 /// lists have, and declarations.
 std::size_t uses_of_array(std::string_view text, std::string_view array) {
@@ -133,7 +141,7 @@ std::size_t uses_of_array(std::string_view text, std::string_view array) {
   RobotLine line;
   while (next_robot_line(text, krl_comment, line)) {
     if (part(text, line.span).starts_with(file_mark)) break;
-    if (begins_declaration(head_of(text, line)) || head_of(text, line) == "GLOBAL") continue;
+    if (declares_variables(text, line)) continue;
     for (std::size_t at = line.code.begin; at < line.code.end;) {
       const Span name = name_at(text, at, line.code.end);
       at = empty(name) ? at + 1 : name.end;
@@ -143,11 +151,10 @@ std::size_t uses_of_array(std::string_view text, std::string_view array) {
   return uses;
 }
 
-void read_statement_of(std::string_view text, const std::string& file, const RobotLine& line, Body& body) {
+void read_statement_of(std::string_view text, const RobotLine& line, Body& body) {
   const std::string name = head_of(text, line);
   if (name == "ENDIF" || name == "ENDSWITCH") --body.conditions;
   if (name == "IF" || name == "SWITCH") ++body.conditions;
-  refuse_change(text, file, line, body);
   body.loop.sets_speed = body.loop.sets_speed || is_krl_call(text, line) || name == "BAS" ||
                          assigned_variable(text, line).starts_with("$VEL");
   const bool counts = assigned_variable(text, line) == body.counter;
@@ -156,10 +163,11 @@ void read_statement_of(std::string_view text, const std::string& file, const Rob
     body.followed = false;
 }
 
-/// Whether a statement uses the counter for more than the element of this pass, NAME[counter].
-bool uses_counter(std::string_view text, const RobotLine& line, const Body& body) {
-  for (std::size_t at = line.code.begin; at < line.code.end;) {
-    const Span variable = variable_at(text, at, line.code.end), name = name_at(text, at, line.code.end);
+/// Whether a line has the name of the counter, other than as the index of an element of this pass,
+/// NAME[counter].
+bool uses_counter(std::string_view text, Span code, const Body& body) {
+  for (std::size_t at = code.begin; at < code.end;) {
+    const Span variable = variable_at(text, at, code.end), name = name_at(text, at, code.end);
     const auto element = indexed(part(text, variable));
     const bool is_element = element && element->name == body.loop.array && element->index == body.counter;
     if (!empty(name) && krl_word(part(text, name)) == body.counter) return true;
@@ -168,10 +176,57 @@ bool uses_counter(std::string_view text, const RobotLine& line, const Body& body
   return false;
 }
 
+/// What a statement computes with: without the variable that it sets, also as the counter of FOR.
+Span read_part(std::string_view text, const RobotLine& line) {
+  const Span head = name_at(text, line.code.begin, line.code.end);
+  const std::size_t begin =
+      krl_word(part(text, head)) == "FOR" ? behind_blanks(text, head.end, line.code.end) : line.code.begin;
+  const auto assignment = assignment_at(text, begin, line.code.end);
+  const bool sets_element =
+      assignment && part(text, assignment->variable).find('[') != std::string_view::npos;
+  return assignment && !sets_element ? assignment->value : line.code;
+}
+
+/// Whether the value that the loop leaves in its counter may be read: more passes would leave another one. A
+/// loop that sets the counter reads its own value. Other routines with a counter of the same name have
+/// another variable.
+bool is_counter_read_outside(std::string_view text, std::size_t loop_begin, const Body& body) {
+  struct Routine {
+    bool declares = false, reads = false, has_loop = false;
+  };
+  std::vector<Routine> routines(1);
+  std::vector<bool> loops;  // around the line: whether they set the counter
+  RobotLine line;
+  while (next_robot_line(text, krl_comment, line)) {
+    if (part(text, line.span).starts_with(file_mark)) break;
+    const std::string head = head_of(text, line);
+    const bool begins = begins_routine(text, line);
+    if (begins) routines.emplace_back();
+    if (line.span.begin == loop_begin) routines.back().has_loop = true;
+    if (line.span.begin >= loop_begin && line.span.begin < body.loop.end) continue;
+    if (begins || declares_variables(text, line)) {
+      routines.back().declares = routines.back().declares || uses_counter(text, line.code, body);
+      continue;
+    }
+    const Span read = read_part(text, line);
+    const bool is_set = std::find(loops.begin(), loops.end(), true) != loops.end();
+    routines.back().reads = routines.back().reads || (!is_set && uses_counter(text, read, body));
+    if (head == "FOR")
+      loops.push_back(uses_counter(text, {line.code.begin, read.begin}, body));
+    else if (head == "ENDFOR" && !loops.empty())
+      loops.pop_back();
+  }
+  const auto own = std::ranges::find(routines, true, &Routine::has_loop);
+  const auto reads_same = [](const Routine& routine) { return routine.reads && !routine.declares; };
+  if (own == routines.end()) return true;
+  return own->reads || (!own->declares && std::ranges::any_of(routines, reads_same));
+}
+
 /// Judges the statements of the loop beside its motion, whose array and routines are known now.
 void judge_statements(std::string_view text, const KrlFacts& facts, const RobotLine& first, Body& body) {
   KrlLoop& loop = body.loop;
   if (facts.changed_in(body.counter) > 0) body.followed = false;
+  loop.acts = is_counter_read_outside(text, first.span.begin, body);
   RobotLine line = first;
   while (next_robot_line(text, krl_comment, line) && line.line_end.end < loop.end) {
     if (empty(line.code) || line.line == loop.motion.line) continue;
@@ -180,7 +235,7 @@ void judge_statements(std::string_view text, const KrlFacts& facts, const RobotL
     for (const KrlCall& call : krl_calls(text, line))
       if (!leaves_robot(facts, call)) body.followed = false;
     const bool repeats = calls ? routine != nullptr && !routine->acts : may_repeat(text, line);
-    loop.acts = loop.acts || !repeats || uses_counter(text, line, body);
+    loop.acts = loop.acts || !repeats || uses_counter(text, line.code, body);
     const std::string variable = assigned_variable(text, line);
     if (!variable.empty()) loop.assigned.push_back(variable);
     loop.sets_zone = loop.sets_zone || calls || head_of(text, line) == "BAS" || variable.starts_with("$APO");
@@ -213,10 +268,13 @@ std::optional<KrlLoop> loop_over_array(std::string_view text, const std::string&
     const std::string name = head_of(text, inside);
     if (part(text, inside.span).starts_with(file_mark) || name == "END") return std::nullopt;
     if (name == "ENDFOR") break;
-    read_statement_of(text, file, inside, body);
+    read_statement_of(text, inside, body);
   }
   body.loop.end = inside.line_end.end;
-  if (!body.followed || body.loop.array.empty()) return std::nullopt;
+  if (body.loop.array.empty()) return std::nullopt;
+  for (inside = line; next_robot_line(text, krl_comment, inside) && inside.line_end.end < body.loop.end;)
+    refuse_change(text, file, inside, body);
+  if (!body.followed) return std::nullopt;
   judge_statements(text, krl_facts_of(text), line, body);
   if (!body.followed) return std::nullopt;
   const std::string_view statements = text.substr(line.span.begin, body.loop.end - line.span.begin);

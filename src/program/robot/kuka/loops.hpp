@@ -22,7 +22,8 @@ struct KrlLoop {
   Span last_number;         ///< of `last`
   bool sets_speed = false;  ///< a statement may change the speed
   bool sets_zone = false;   ///< a statement may change $APO
-  /// More passes would do something else: a statement uses the counter, or acts once in each pass.
+  /// More passes would do something else: a statement uses the counter, in the loop or outside, or acts once
+  /// in each pass.
   bool acts = false;
   std::vector<std::string> assigned{};  ///< variables in upper case
   std::size_t end = 0;                  ///< byte behind the line of ENDFOR

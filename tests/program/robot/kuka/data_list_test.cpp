@@ -298,6 +298,36 @@ std::string with_lists(const std::filesystem::path& program) {
 
 }  // namespace
 
+TEST_CASE("no target is inserted into the array of a loop whose counter is read outside") {
+  const auto stays_whole = [](const std::string& old, const std::string& by) {
+    const Program program = read_joined(replaced(loop_program, old, by), loop_list);
+    REQUIRE(program.moves.size() == 3);
+    return !program.moves[1].may_split;
+  };
+  const std::string end = "ENDFOR\n", own = "INT n\n";
+  for (const char* const reads :
+       {"IF n==4 THEN\n$OUT[2]=TRUE\nENDIF\n", "$OUT[n]=TRUE\n", "n=n+1\n", "k = 2*n\n",
+        "FOR k = 1 TO n\nENDFOR\n", "FOR n = n TO 9\nENDFOR\n", "FOR n = 1 TO 2\nENDFOR\n$OUT[n]=TRUE\n"}) {
+    CAPTURE(std::string(reads));
+    CHECK(stays_whole(end, end + reads));
+  }
+  for (const char* const other : {"", "n=1\n", "FOR n=1 TO 2\n$OUT[n]=TRUE\nENDFOR\n",
+                                  "FOR n=1 TO 2\nFOR k=1 TO n\nENDFOR\nENDFOR\n", "; n\n"}) {
+    CAPTURE(std::string(other));
+    CHECK_FALSE(stays_whole(end, end + other));
+  }
+  CHECK(stays_whole(own, own + "GLOBAL INTERRUPT DECL 3 WHEN n==3 DO stop()\n"));
+  const std::string begin = "DEF speed(f:IN)\n", reader = "$OUT[n]=TRUE\nEND\n";
+  CHECK_FALSE(stays_whole(begin, "DEF a(n:IN)\nINT n\n" + reader + begin));
+  CHECK_FALSE(stays_whole(begin, "DEF a()\n" + reader + begin));
+  const std::string in_list = replaced(loop_program, own, "");  // the data list declares n
+  const Program shared = read_joined(replaced(in_list, begin, "DEF a()\n" + reader + begin), loop_list);
+  CHECK_FALSE(shared.moves[1].may_split);
+  const Program separate =
+      read_joined(replaced(in_list, begin, "DEF a()\nINT n\n" + reader + begin), loop_list);
+  CHECK(separate.moves[1].may_split);
+}
+
 TEST_CASE("each KUKA program of a folder of real programs is reproduced or refused with its line") {
   check_corpus(
       [](const std::filesystem::path& path) {
