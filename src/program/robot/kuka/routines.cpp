@@ -275,7 +275,7 @@ void KrlScan::add_statement(std::string_view text, const RobotLine& line) {
   routine_->acts = routine_->acts || !(is_own || may_repeat(text, line) || is_krl_call(text, line));
   const std::string changed = changed_part(variable);
   const bool computed = variable.find('[') != std::string::npos && changed.find('[') == std::string::npos;
-  if (!variable.empty() && !is_own && (!is_first_ || computed)) add_change(changed, line_);
+  if (!variable.empty() && (is_first_ ? computed : !is_own)) add_change(changed, line_);
 }
 
 void KrlScan::add_calls(std::string_view text, const RobotLine& line) {

@@ -303,6 +303,7 @@ TEST_CASE("a target that a routine, an argument or a computed index may change i
   CHECK(refusal("ok=lower(P[],2)\n", "DEFFCT BOOL lower(t:OUT,d:IN)\nENDFCT\n")
             .starts_with("job.src:3:1" + why));
   CHECK(refusal("P[n].Z=0\n", "").starts_with("job.src:3:1" + why));
+  CHECK(refusal("DECL POS P[2]\nP[n].Z=0\n", "").starts_with("job.src:4:1: error: the target 'P[1]' of LIN"));
   CHECK(refusal("show(P[1],2)\n", "DEF show(t:IN,d:IN)\nt.Z=0\nEND\n") == "none");
   CHECK(refusal("other()\n", "DEF other()\nDECL POS P[2]\nP[1].Z=0\nEND\n") == "none");
   CHECK(refusal("other()\n", "DEF other()\nP[2].Z=0\nEND\n") == "none");
