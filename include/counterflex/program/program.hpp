@@ -182,7 +182,7 @@ inline std::optional<double> cutter_diameter_mm(const Program& program, std::siz
 inline std::array<bool, 3> lost_axes(const Program& program, std::size_t m) {
   std::array<bool, 3> lost{};
   const Move &move = program.moves[m], *last = move_before(program, m);
-  if (last == nullptr || last->block_delete || last->frame != move.frame) return lost;
+  if (last == nullptr || last->block_delete) return lost;
   for (std::size_t axis = 0; axis < 3; ++axis)
     lost[axis] = last->known_end[axis] && !move.known_start[axis] && !move.moved_only_by_program[axis];
   return lost;

@@ -264,7 +264,9 @@ Move begin_klartext_move(const KlartextBlock& block, KlartextReading& r) {
   move.unit = state.unit.value_or(LengthUnit::millimetres);
   move.known_start = state.known;
   move.frame = static_cast<std::uint32_t>(state.frame);
-  if (!displacement_reason(r).empty())
+  const Move* before = move_before(r.program, r.program.moves.size());
+  const bool in_new_frame = before != nullptr && before->frame != move.frame;
+  if (in_new_frame || !displacement_reason(r).empty())
     for (std::size_t axis = 0; axis < 3; ++axis)
       move.moved_only_by_program[axis] = state.moved_by_machine[axis] != r.moves_read + 1;
   move.start_mm = move.end_mm = state.position_mm;

@@ -166,6 +166,29 @@ TEST_CASE("a cycle that is not corrected passes where the place of its call is n
   }
 }
 
+TEST_CASE("a call is refused where the text holds a correction that is not needed at its place") {
+  // Inclined about Y: 0.1 mm is needed at X100, nothing at X0.
+  Machine machine = perfect_gantry();
+  std::get<AssemblyError>(machine.chains[0].elements[0]).X.R = exp_so3(Vector3(0, -1e-3, 0));
+  const std::string text = "O1\nG21 G90 G17 G54\nG0 X100. Y0. Z0.\nG66 P9000 Z-10.\nX0. Y10.\nG67\nM30\n";
+  const auto failure = failure_on(machine, text);
+  REQUIRE(failure);
+  CHECK(failure->line == 5);
+}
+
+TEST_CASE("after a machine position an axis holds nothing, also where the work offset changes") {
+  for (const char* change : {"", "G55\n", "G52 X5.\n", "G55\nG52 X5.\n"}) {
+    CAPTURE(std::string(change));
+    const std::string text = std::string("O1\nG21 G90 G17 G54\nG0 X0. Y0. Z5.\nG53 G0 Z0.\nG53 X0. Y0.\n") +
+                             change + "G0 X10.\nY20.\nG1 X30. F100\nM30\n";
+    const std::vector<std::string> lines =
+        lines_of(compensated(Shop({.machine = displaced_gantry(), .text = text})).text);
+    CHECK(lines[lines.size() - 5] == "G0 X10.");
+    CHECK(lines[lines.size() - 4] == "Y20.");
+    CHECK(lines[lines.size() - 3] == "G1 X30. F100");
+  }
+}
+
 TEST_CASE("after a machine position an axis holds nothing that an expression could break") {
   const std::string text = "G21 G90\n#1=20\nG0 X0. Y0. Z5.\nG53 G0 Z0.\nZ#1\nM30\n";
   CHECK(!failure_on(displaced_gantry(), text));

@@ -317,6 +317,10 @@ bool has_known_orientation(const ModalState& state) {
   return !state.turns_tool || all_known(state.known_angles);
 }
 
+void note_machine_moves(const std::array<bool, 3>& moved_by_machine, Move& move) {
+  for (std::size_t axis = 0; axis < 3; ++axis) move.moved_only_by_program[axis] = !moved_by_machine[axis];
+}
+
 Move& begin_move(const Block& block, Reading& r, Motion motion) {
   Move& move = r.program.moves.emplace_back();
   move.line = block.line;
@@ -327,13 +331,15 @@ Move& begin_move(const Block& block, Reading& r, Motion motion) {
   move.unit = r.state.unit.value_or(LengthUnit::millimetres);
   if (has_known_orientation(r.state)) move.known_start = r.state.known;
   move.start_mm = r.state.position_mm;
+  move.frame = static_cast<std::uint32_t>(r.state.frame);
+  const Move* before = move_before(r.program, r.program.moves.size() - 1);
+  if (before != nullptr && before->frame != move.frame) note_machine_moves(r.moved_by_machine, move);
   r.moved_by_machine.fill(false);
   r.state.cycle.left_at_earlier_retract = false;
   move.relative = r.relative();
   move.incremental = move.relative ? 0 : r.relative_axes & 7U;
   move.feed_mm_min = feed_mm_min(r);
   move.spindle_rpm = spindle_rpm(r.state);
-  move.frame = static_cast<std::uint32_t>(r.state.frame);
   move.tool = tool_of(r);
   move.operation = r.operation.index_in(r.program, motion, as_tool(r.state.tool));
   if (r.state.force) move.force = r.state.force;
@@ -353,8 +359,7 @@ Move& start_move(const Block& block, Reading& r, Motion motion) {
   if (!moves.empty() && moves.back().block.begin == block.span.begin) moves.pop_back();
   const std::array<bool, 3> moved_by_machine = r.moved_by_machine;
   Move& move = begin_move(block, r, motion);
-  if (!why_not_followed(r).empty())
-    for (std::size_t axis = 0; axis < 3; ++axis) move.moved_only_by_program[axis] = !moved_by_machine[axis];
+  if (!why_not_followed(r).empty()) note_machine_moves(moved_by_machine, move);
   move.block_delete = !empty(block.block_delete);
   if (r.sorted.has(Action::stop_once)) move.exact_stop = true;
   if (const Word* n = r.sorted.word('N')) move.block_number = count_of(*n);
