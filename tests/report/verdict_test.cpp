@@ -173,6 +173,39 @@ TEST_CASE("a call that is not expanded is a feed move of unknown length") {
   CHECK(run.tally.moves().unknown_length == 1);
 }
 
+TEST_CASE("feeds of further axes, to joint values and to a hole are feed moves of unknown length") {
+  const std::string
+      klartext = "BEGIN PGM A MM\nTOOL CALL 1 Z S100\nL X+0 Y+0 Z+5 R0 FMAX\nL Z+0 F100\n",
+      drilling = "CYCL DEF 200 DRILLING Q200=2 Q201=-5 Q206=150 Q202=5 Q210=0 Q203=+0 Q204=50 Q211=0\n",
+      gcode = "G21 G90 G54 G0 X0 Y0 Z5\nG1 Z0 F100\n",
+      siemens = "G71 G90 G17 G54\nG0 X0 Y0 Z5\nG1 Z0 F100\nMCALL CYCLE81(5,0,2,-5)\n";
+  const std::string ur = "def a():\n movel(p[0,0,0,0,0,0])\n movel(p[0,0,1,0,0,0])\n";
+  const auto unknown_in = [](const std::string& text) {
+    return Reading(text.c_str()).tally.moves().unknown_length;
+  };
+  CHECK(unknown_in(gcode) == 0);
+  CHECK(unknown_in(gcode + "A360 F500\n") == 1);
+  CHECK(unknown_in(gcode + "A360\nA0\n") == 2);
+  CHECK(unknown_in(gcode + "A0\n") == 0);
+  CHECK(unknown_in(gcode + "G0 A90\n") == 0);
+  CHECK(unknown_in(gcode + "G53 G1 A5\n") == 1);
+  CHECK(unknown_in(gcode + "G28 A5\nG30 A5\n") == 0);
+  const std::string end = "END PGM A MM\n";
+  CHECK(unknown_in(klartext + "L C+90 F500\n" + end) == 1);
+  CHECK(unknown_in(klartext + "L IA+90 F500\n" + end) == 1);
+  CHECK(unknown_in(klartext + "L C+90 FMAX\n" + end) == 0);
+  CHECK(unknown_in(klartext + drilling + "L X+40 Y+40 F300 M99\n" + end) == 1);
+  CHECK(unknown_in(klartext + drilling + "L X+40 Y+40 FMAX M99\n" + end) == 0);
+  CHECK(unknown_in(siemens + "G1 X40 Y40 F300\nMCALL\nM30\n") == 1);
+  CHECK(unknown_in(klartext + "L Z+2 F100\n" + drilling + "L X+40 Y+40 F300 M99\n" + end) == 0);
+  CHECK(
+      unknown_in("G71 G90 G17 G54\nG0 X0 Y0 Z5\nG1 Z2 F100\nMCALL CYCLE81(5,0,2,-5)\nG1 X40 Y40 F300\nMCALL\n"
+                 "M30\n") == 0);
+  CHECK(unknown_in(siemens + "G0 X40 Y40\nMCALL\nM30\n") == 0);
+  CHECK(unknown_in(ur + "end\n") == 1);  // the first
+  CHECK(unknown_in(ur + " movel([0,-1.7,-1.9,-1,1.57,0], a=0.5, v=0.02)\nend\n") == 2);
+}
+
 TEST_CASE("a feed move from an unknown position is unknown, but its end is corrected") {
   Reading run("G21 G90 G54 G1 X0 Y0 Z5 F100\n");
   run.solve(no_segment, 1, 0.001, false);

@@ -240,6 +240,25 @@ Context context_of(const Reading& r) {
   }
 }
 
+/// Whether the block feeds further axes alone, which are not followed: they may cut.
+bool feeds_further_axes(const Reading& r) {
+  const bool feeds = r.state.motion != MotionMode::none && r.state.motion != MotionMode::rapid &&
+                     r.state.motion != MotionMode::cancelled;
+  if (!feeds || r.sorted.has(Action::call) || r.sorted.has(Action::dwell) || r.sorted.has(Action::displace) ||
+      r.sorted.has(Action::set_data) || r.sorted.has(Action::shift))
+    return false;
+  return (r.state.displaced & rotary) != 0 && r.sorted.has_any(may_turn_tool(r) ? "UVW" : "ABCUVW");
+}
+
+/// Counts the block as a feed move of unknown length, unless it was.
+void note_feed_of_further_axes(const Block& block, Reading& r) {
+  std::vector<LeftAlone>& left = r.program.left_alone;
+  const bool is_listed = !left.empty() && left.back().text_line == block.text_line;
+  if (!is_listed)
+    left.push_back({block.line, "a feed of further axes is not followed", false, block.text_line});
+  if (!left.back().machine_position) left.back().feeds = true;
+}
+
 void apply_words(const Block& block, Reading& r) {
   r.corner = block.corner;
   r.angle = block.angle;
@@ -265,7 +284,10 @@ void apply_words(const Block& block, Reading& r) {
     read_anything(block, r, "ANG= needs exactly one of X and Y, in a line under G17");
   else
     apply_axis_words(block, r);
-  if (r.program.moves.size() > moves) join_contour(r);
+  if (r.program.moves.size() > moves)
+    join_contour(r);
+  else if (feeds_further_axes(r))
+    note_feed_of_further_axes(block, r);
   refuse_beside_orientation(block, r);
   if (r.sorted.has(MAction::retract)) apply_retract(block, r);
   stop_spindle(r);

@@ -7,6 +7,10 @@
 
 namespace counterflex {
 
+/// For holes of Klartext and Sinumerik to which a feed move leads.
+constexpr std::string_view feed_to_hole =
+    "a feed move to a hole is corrected at its end in X and Y alone: call the cycle in a block of its own";
+
 /// For pockets and slots about one point (Move::mills_at_end): why they are not fully corrected.
 constexpr std::string_view milled_as_a_whole =
     "the cycle is shifted as a whole with its centre; rotation and tilt across it are not corrected";

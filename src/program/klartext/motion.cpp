@@ -3,6 +3,7 @@
 #include <algorithm>
 
 #include "program/gcode/moves/contour.hpp"
+#include "program/gcode/remarks.hpp"
 #include "program/klartext/codes.hpp"
 #include "program/klartext/read.hpp"
 #include "program/text/lex.hpp"
@@ -17,10 +18,16 @@ double mm_per_unit(const KlartextReading& r) {
   return r.state.unit ? mm_per(*r.state.unit) : 1.0;
 }
 
+/// "C" and "IC".
+bool is_of_further_axis(const KlartextWord& word) {
+  constexpr std::string_view letters = "ABCUVW";
+  const bool incremental = word.key.size() == 2 && word.key[0] == 'I';
+  return (word.key.size() == 1 || incremental) && letters.find(word.key.back()) != std::string_view::npos;
+}
+
 void watch_rotary_axes(KlartextReading& r) {
   for (const KlartextWord& word : r.words)
-    if (word.key.size() == 1 && std::string_view("ABCUVW").find(word.key[0]) != std::string_view::npos &&
-        (!word.literal || word.value != 0))
+    if (is_of_further_axis(word) && (!word.literal || word.value != 0))
       r.state.displacements[1] = "a rotary or further axis is not at zero";
 }
 
@@ -127,9 +134,16 @@ void call_cycle_after(const KlartextBlock& block, KlartextReading& r, Move& move
     return call_relative_cycle(block, r, move);
   }
   const bool place_is_known = all_known(r.state.known);
+  // Above the surface it only positions the tool.
+  const bool is_above = r.state.surface && move.known_start[2] && move.start_mm.z() > r.state.surface->z_mm;
+  const bool goes =
+      !move.known_start[0] || !move.known_start[1] || move.start_mm.head<2>() != move.end_mm.head<2>();
+  const bool feeds = move.motion == Motion::feed && goes && !is_above;
   r.state.known[2] = false;
-  if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move))
+  if (displacement_reason(r).empty() && r.state.cycle_acts_here && take_hole(r, move)) {
+    if (feeds) add_uncorrected(r, {.line = block.line, .why = std::string(feed_to_hole), .feeds = true});
     return note_hole(block, r, move);
+  }
   move.calls_at_end = place_is_known && !move.block_delete;
   r.state.surface.reset();
   move.fixed[2] = true;
@@ -319,6 +333,9 @@ void read_klartext_motion(const KlartextBlock& block, KlartextReading& r) {
     add_machine_position(block, codes, r);
   } else if (programs_axis(r)) {
     add_klartext_move(block, codes, r);
+  } else if (std::any_of(r.words.begin(), r.words.end(), is_of_further_axis) &&
+             r.state.displacements.contains(1) && find_word(r.words, "FMAX") == nullptr) {
+    add_uncorrected(r, {.line = block.line, .why = r.state.displacements[1], .feeds = true});
   } else if (codes.cycle_call) {
     call_cycle(codes, r, [&] { add_cycle_call(block, r); });
   } else if (find_word(r.words, "R") != nullptr && r.state.contour) {

@@ -365,6 +365,13 @@ void end_called_hole(Reading& r) {
   Move& move = r.program.moves.back();
   move.may_jump = move.may_split = false;
   r.state.position_mm.z() = r.called->heights_mm[1];
+  const bool goes =
+      !move.known_start[0] || !move.known_start[1] || move.start_mm.head<2>() != move.end_mm.head<2>();
+  // Above the surface it only positions the tool.
+  const bool is_above = move.known_start[2] && move.start_mm.z() > r.called->heights_mm[0];
+  if (r.state.motion != MotionMode::feed || !goes || is_above) return;
+  r.last_reason = feed_to_hole;
+  r.program.left_alone.push_back({move.line, r.last_reason, false, move.text_line, true});
 }
 
 }  // namespace counterflex

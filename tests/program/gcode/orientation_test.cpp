@@ -61,7 +61,9 @@ TEST_CASE("cycles and cutter compensation are refused in a program that turns th
 
 TEST_CASE("on other machines a word of A, B or C that is not zero ends correction") {
   const Program program = read_program(turning_program, "six.ngc", {.dialect = "linuxcnc"});
-  CHECK(program.left_alone.size() == 1);
+  REQUIRE(program.left_alone.size() == 2);
+  CHECK(!program.left_alone[0].feeds);
+  CHECK(program.left_alone[1].feeds);  // the block that only turns
   CHECK(!program.moves[1].orientation);
 }
 

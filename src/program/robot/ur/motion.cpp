@@ -194,9 +194,12 @@ Move move_to(UrReading& r, const RobotLine& line, const UrTarget& target, const 
 
 void read_line(UrReading& r, const RobotLine& line, std::string_view head, const UrTarget& target,
                const UrManner& manner) {
-  if (target.kind == TargetKind::joints)
-    return add_joint_move(r.robot, line,
-                          fmt::format("{} moves to joint positions, and where these are is not known", head));
+  if (target.kind == TargetKind::joints) {
+    add_joint_move(r.robot, line,
+                   fmt::format("{} moves to joint positions, and where these are is not known", head));
+    r.robot.program.left_alone.back().feeds = true;
+    return;
+  }
   if (target.kind == TargetKind::computed)
     return add_unfollowed_move(r.robot, line, fmt::format("the target of {} is computed at run time", head));
   if (in_body(r)) return add_unfollowed_move(r.robot, line, std::string(in_ur_body));
